@@ -1,0 +1,92 @@
+"""What every element type offers: dense element matrices, all elements at once.
+
+The assembler, the constraint elimination and the recovery know elements only through
+this protocol. A block holds all elements of one card whose matrices have one shape.
+
+Frames: `frame == "basic"` means that the matrices belong to the six freedoms of each
+grid along the axes of the basic frame; the assembler turns them into the displacement
+frames (CD). Scalar elements act on freedoms of the displacement frames directly
+(`frame == "displacement"`). Units are those of the deck.
+"""
+
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Recovery:
+    """Element results as a linear map of the element's freedoms.
+
+    Attributes:
+        table: name of the result, the key of the result files ("CQUAD4").
+        columns: names of the c printed columns, Nastran's, in Nastran's order.
+        matrix: (e, c_linear, n) linear map from element freedoms (the block's `frame`)
+            to linear quantities.
+        id: (e,) element ids.
+    """
+
+    table: str
+    columns: tuple[str, ...]
+    matrix: Float64
+    id: Int64
+
+    def derive(self, linear: Float64) -> Float64:
+        """Printed columns from linear quantities; overridden for von Mises etc.
+
+        Args:
+            linear: (..., e, c_linear).
+
+        Returns:
+            (..., e, c) in the order of `columns`.
+        """
+        return linear
+
+
+class ElementBlock(Protocol):
+    """All elements of one card with matrices of one shape.
+
+    Attributes:
+        card: Nastran's name, "CQUAD4".
+        id: (e,) element ids, ascending.
+        dof: (e, n) rows of the g-set; -1 marks a grounded freedom.
+        frame: axes of the element matrices, see the module's text.
+    """
+
+    @property
+    def card(self) -> str: ...
+    @property
+    def id(self) -> Int64: ...
+    @property
+    def dof(self) -> Int64: ...
+    @property
+    def frame(self) -> Literal["basic", "displacement"]: ...
+
+    def stiffness(self) -> Float64 | None:
+        """(e, n, n) stiffness, None where the element has none."""
+        ...
+
+    def structural_damping(self) -> Float64 | None:
+        """(e,) GE of the element's material or property, None where all are zero."""
+        ...
+
+    def mass(self, *, coupled: bool) -> Float64 | None:
+        """(e, n, n) mass incl. non-structural mass (PARAM COUPMASS), before WTMASS."""
+        ...
+
+    def damping(self) -> Float64 | None:
+        """(e, n, n) viscous damping, None where the element has none."""
+        ...
+
+    def forces(self) -> Recovery | None:
+        """Element forces, None where Nastran prints none."""
+        ...
+
+    def stresses(self) -> Recovery | None:
+        """Element stresses, None where Nastran prints none."""
+        ...
