@@ -1,11 +1,12 @@
 """What has to be known of a landing gear: validated data, as written in a case file.
 
-All positions and inertias are in the airframe frame B (for the reference aircraft x aft,
-y to starboard, z up), gear extended, aircraft undeformed. SI units except angles in
-degrees. A gear is one rigid fitting held by the airframe, a piston with its axle that
-slides in it along the strut axis, and wheels that spin on the axle.
+All positions and inertias are in the airframe frame B (x aft, y to starboard, z up),
+gear extended, aircraft undeformed. SI units except angles in degrees. A gear is one
+rigid fitting held by the airframe, a piston with its axle that slides in it along the
+strut axis, and wheels that spin on the axle.
 """
 
+from itertools import pairwise
 from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -147,14 +148,12 @@ class LandingGear(_Data):
     attachment_node: int = Field(
         gt=0, description="grid of the airframe model that holds the fitting"
     )
-    axle: Vector3 = Field(
-        description="middle of the axle in B, gear extended, m; on its plane of symmetry"
-    )
+    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
     rake_deg: float = Field(
         default=0.0,
         gt=-45,
         lt=45,
-        description="angle of the strut axis from the up axis in the plane of symmetry; "
+        description="angle of the strut axis from the up axis, about the lateral axis; "
         "positive: the lower end lies further forward",
     )
     wheel_offsets: tuple[float, ...] = Field(
@@ -171,7 +170,7 @@ class LandingGear(_Data):
     @model_validator(mode="after")
     def _wheels_apart(self) -> Self:
         offsets = self.wheel_offsets
-        if any(b <= a for a, b in zip(offsets, offsets[1:])):
+        if any(b <= a for a, b in pairwise(offsets)):
             raise ValueError(f"wheel_offsets {offsets} m must be strictly ascending")
         return self
 
