@@ -18,10 +18,11 @@ from scipy.signal import lfilter
 
 Float64 = npt.NDArray[np.float64]
 
-COLUMNS = (
-    "run aircraft topology basis modes highest_hz point axis peak_fe peak_mbs "
-    "peak_error rms_error correlation sprague_geers"
-).split()
+COLUMNS = [
+    *("run", "aircraft", "topology", "basis", "modes", "highest_hz", "point", "axis"),
+    *("peak_fe", "peak_mbs", "peak_error", "rms_error", "correlation"),
+    "sprague_geers",
+]
 
 # Below this share of the largest peak of a run, a component is zero by symmetry and
 # its relative errors would compare rounding errors.

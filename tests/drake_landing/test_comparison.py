@@ -105,7 +105,7 @@ def test_shock_spectrum_of_a_stiff_oscillator_is_the_peak_of_the_base() -> None:
 
 
 def test_low_quality_is_refused() -> None:
-    with pytest.raises(ValueError, match="quality 0.4"):
+    with pytest.raises(ValueError, match=r"quality 0\.4"):
         shock_response_spectrum(SINE, 1e-3, np.array([5.0]), quality=0.4)
 
 

@@ -1,0 +1,266 @@
+"""A landing case: everything that one run of the process depends on, validated.
+
+Every field says its meaning, unit and range; `cases_io` reads it from YAML and reports
+problems with their line, `drake-landing check --schema` prints it as a JSON schema.
+Lengths in m, speeds in m/s, angles in degrees, times in s.
+"""
+
+import re
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    PlainSerializer,
+    Tag,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+    model_validator,
+)
+
+from drake_landing.gear import LandingGear
+
+Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
+Model = Literal["con", "pre", "full"]
+Basis = Literal["full-modes", "craig-bampton", "guyan"]
+_SELECTION = r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz)\s*$"
+
+
+# The name of a known set, or a list; tags are in parentheses, see `cases_io`.
+Gears = Annotated[
+    Annotated[Literal["d150"], Tag("(name)")]
+    | Annotated[tuple[LandingGear, ...], Tag("(list)")],
+    Discriminator(lambda value: "(name)" if isinstance(value, str) else "(list)"),
+]
+
+
+class Section(BaseModel):
+    """Frozen; unknown keys are errors."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class Selection(Section):
+    """Which elastic modes: all of the basis, the lowest, or those below a frequency."""
+
+    kind: Literal["all", "count", "below"]
+    value: float = 0.0  # number of modes, or Hz
+
+    def __str__(self) -> str:
+        if self.kind == "all":
+            return "all"
+        unit = " Hz" if self.kind == "below" else ""
+        return f"{self.kind} {self.value:g}{unit}"
+
+
+def parse_selection(text: Any) -> Any:
+    """`all`, `count N` or `below F Hz`."""
+    if isinstance(text, Selection):
+        return text
+    match = re.match(_SELECTION, text) if isinstance(text, str) else None
+    if match is None:
+        raise ValueError("expected 'count N', 'below F Hz' or 'all'")
+    everything, count, below = match.groups()
+    if everything:
+        return Selection(kind="all")
+    if count:
+        return Selection(kind="count", value=float(count))
+    return Selection(kind="below", value=float(below))
+
+
+SelectionText = Annotated[
+    Selection,
+    BeforeValidator(parse_selection),
+    PlainSerializer(str),
+    WithJsonSchema({"type": "string", "pattern": _SELECTION}),
+]
+
+
+def number(
+    meaning: str,
+    unit: str,
+    default: float | None = None,
+    *,
+    gt: float | None = None,
+    ge: float | None = None,
+    lt: float | None = None,
+    le: float | None = None,
+) -> Any:
+    """A field whose description ends with unit and range; required without default."""
+    low = f"> {gt:g}" if gt is not None else f">= {ge:g}" if ge is not None else ""
+    high = f"< {lt:g}" if lt is not None else f"<= {le:g}" if le is not None else ""
+    limits = " and ".join(part for part in (low, high) if part)
+    return Field(
+        default=... if default is None else default,
+        description=f"{meaning}, {unit}" + (f", {limits}" if limits else ""),
+        gt=gt,
+        ge=ge,
+        lt=lt,
+        le=le,
+    )
+
+
+class Axes(Section):
+    """Where the deck's basic frame points."""
+
+    forward: Axis = Field(default="-x", description="direction of flight")
+    up: Axis = Field(default="z", description="up, in level attitude")
+
+    @model_validator(mode="after")
+    def _perpendicular(self) -> Self:
+        if self.forward[-1] == self.up[-1]:
+            raise ValueError(
+                f"forward {self.forward} and up {self.up} must be different axes"
+            )
+        return self
+
+
+class Airframe(Section):
+    """The airframe's finite-element model and its modal body."""
+
+    model: Model | None = Field(
+        default=None, description="a built-in reference aircraft, instead of `deck`"
+    )
+    topology: str = Field(
+        default="1",
+        description="how the built-in model holds its gears: 1, 2 or distributed; for "
+        "a deck a mere label of the result tables",
+        coerce_numbers_to_str=True,
+    )
+    deck: Path | None = Field(
+        default=None,
+        description="Nastran bulk-data file, SI units, relative to the case file",
+    )
+    axes: Axes = Field(default=Axes(), description="axes of the deck's basic frame")
+    basis: Basis = Field(
+        default="full-modes",
+        description="reduction before the eigenmodes: full-modes (none), guyan, "
+        "craig-bampton",
+    )
+    interface: tuple[int, ...] = Field(
+        default=(),
+        description="grids that a reduction keeps, beside the attachment nodes, the "
+        "monitoring points and the deck's ASET",
+    )
+    fixed_interface_modes: SelectionText = Field(
+        default=Selection(kind="below", value=150.0),
+        description="generalised coordinates of craig-bampton: count N, below F Hz",
+    )
+    select: SelectionText = Field(
+        default=Selection(kind="below", value=50.0),
+        description="elastic modes of the multibody model: count N, below F Hz, all",
+    )
+    monitoring: dict[str, int] = Field(
+        default={},
+        description="monitoring points: name and grid id; the built-in models have "
+        "their own",
+    )
+
+    @field_validator("deck", mode="after")
+    @classmethod
+    def _relative_to_case(cls, deck: Path | None, info: ValidationInfo) -> Path | None:
+        folder = (info.context or {}).get("folder")
+        return Path(folder, deck) if deck and folder else deck
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        if (self.model is None) == (self.deck is None):
+            raise ValueError("give either `model` (con, pre, full) or `deck` (a file)")
+        if self.deck and not self.monitoring:
+            raise ValueError("a deck needs `monitoring` points: name and grid id")
+        return self
+
+
+class Scenario(Section):
+    """State of the aircraft just before touchdown. Zero angles: level, on the track."""
+
+    sink_rate: float = number("vertical speed at touchdown", "m/s", gt=0, le=10)
+    forward_speed: float = number("along the runway", "m/s", 67.0, ge=0, le=150)
+    side_speed: float = number("toward starboard", "m/s", 0.0, ge=-30, le=30)
+    pitch: float = number("nose up", "deg", 0.0, ge=-20, le=30)
+    roll: float = number("starboard wing down", "deg", 0.0, ge=-30, le=30)
+    yaw: float = number(
+        "nose to starboard of the track (drift, side-slip)", "deg", 0.0, ge=-45, le=45
+    )
+    pitch_rate: float = number("nose up", "deg/s", 0.0, ge=-30, le=30)
+    roll_rate: float = number("starboard wing down", "deg/s", 0.0, ge=-60, le=60)
+    yaw_rate: float = number("nose to starboard", "deg/s", 0.0, ge=-30, le=30)
+    lift: Literal["weight"] = Field(
+        default="weight",
+        description="lift balances the weight: neither acts, all responses are "
+        "increments to steady flight",
+    )
+
+
+class Simulation(Section):
+    """The multibody run."""
+
+    duration: float = number("from just above touchdown", "s", 1.0, gt=0, le=60)
+    integrator: Literal[
+        "runge_kutta3", "runge_kutta5", "bogacki_shampine3", "radau3"
+    ] = Field(default="runge_kutta3", description="Drake's integration scheme")
+    accuracy: float = number(
+        "error control of the integrator", "in units of the state", 1e-5, gt=0, le=1e-2
+    )
+    max_step: float = number("largest step", "s", 5e-3, gt=0, le=0.1)
+    clearance: float = number(
+        "height of the lowest tyre over the runway at start", "m", 1e-3, gt=0, le=1
+    )
+
+
+class Transient(Section):
+    """The direct transient response of the full model."""
+
+    step: float = number("time step", "s", 5e-4, gt=0, le=0.01)
+    scheme: Literal["nastran", "generalised-alpha"] = Field(
+        default="nastran", description="time integration"
+    )
+    duration: float | None = Field(
+        default=None, gt=0, le=60, description="s; default: that of the simulation"
+    )
+
+
+class Case(Section):
+    """One landing, from the deck to the comparison."""
+
+    name: str = Field(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$",
+        description="names the run and its folder: letters, digits, . _ -",
+    )
+    title: str = Field(default="", description="one line for the report")
+    airframe: Airframe
+    gears: Gears = Field(
+        default="d150",
+        description="list of landing gears, or d150: those of the reference aircraft",
+    )
+    scenario: Scenario
+    simulation: Simulation = Simulation()
+    transient: Transient = Transient()
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.gears == "d150":
+            if self.airframe.deck:
+                raise ValueError(
+                    "gears: a deck of your own needs its list of gears; d150 belongs "
+                    "to the built-in models"
+                )
+            return self
+        names = [gear.name for gear in self.gears]
+        if not names:
+            raise ValueError("gears: at least one landing gear is needed")
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise ValueError(f"gears: name {', '.join(twice)} is used more than once")
+        return self
+
+    @property
+    def transient_duration(self) -> float:
+        """Of the direct transient response, s: never beyond the simulation."""
+        wanted = self.transient.duration or self.simulation.duration
+        return min(wanted, self.simulation.duration)
