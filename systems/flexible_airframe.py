@@ -1,0 +1,341 @@
+"""A free-flying flexible airframe: Newton-Euler plus elastic modes in mean axes.
+
+The floating frame B has its origin at the centre of gravity G of the body and turns
+with its mean axes, to which the elastic modes are orthogonal:
+
+    m a_G = F - m g e_z,    I ω' + ω × I ω = M_G,
+    m_i η_i" + Σ_j c_ij η_j' + m_i ω_i² η_i = φ_iᵀ f.
+
+The inertia I is that of the undeformed body. The arms of the loads are those of the
+deformed one (see `modal_kinematics`), whereby power is conserved at any deformation;
+what is neglected is of the order of deformation over size of the body.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from pydrake.common.value import Value
+from pydrake.systems.framework import (
+    BasicVector,
+    Context,
+    ContinuousState,
+    LeafSystem,
+    NumericParameterIndex,
+    ValueProducer,
+)
+
+from systems.modal_body import ModalBody
+from systems.modal_kinematics import NodeMotion, Nodes, mode_scales, node_motion
+from systems.rotations import quaternion_rate, rotation_from_quaternion
+
+Float64 = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class _Motion:
+    """The state, taken apart, and the attachment nodes' motion."""
+
+    x: Float64
+    R_WB: Float64
+    amplitudes: Float64
+    nodes: NodeMotion
+
+
+class FlexibleAirframe(LeafSystem):
+    """Six rigid freedoms and n modes; n = 0 is a rigid aircraft.
+
+    State, all in z: p_WG (3, m), quaternion of R_WB (4), v_WG (3, m/s), ω_B (3, rad/s),
+    n modal amplitudes and n rates, scaled by `modal_kinematics.mode_scales`.
+
+    With k_a attachment and k_m monitoring nodes. Angular parts come first in spatial
+    vectors, unless said otherwise.
+
+    | input port | size | |
+    |---|---|---|
+    | attachment_wrench | 6 k_a | on the airframe at the nodes, W, N m and N |
+    | external_load | 6 + n | force in W, moment about G in B, modal forces in the
+      amplitudes of the ModalBody; zero if not connected |
+
+    | output port | size | |
+    |---|---|---|
+    | node_pose | 12 k_a | R_WN by rows, p_WN |
+    | node_velocity, node_acceleration | 6 k_a | W |
+    | node_free_acceleration | 6 k_a | W, as if attachment_wrench were zero |
+    | node_compliance | (6 k_a)² | acceleration per wrench, W |
+    | monitor_pose, monitor_velocity | 12 k_m, 6 k_m | W |
+    | monitor_acceleration | 6 k_m | [linear; angular] of the nodes relative to
+      inertial space, in B axes |
+    | pose | 7 | quaternion of R_WB, p_WG |
+    | modal_amplitudes | n | in the amplitudes of the ModalBody |
+    | energy | 1 | kinetic, strain and gravity, J |
+    | dissipated_power | 1 | W |
+
+    Only node_acceleration and monitor_acceleration depend on attachment_wrench: no
+    algebraic loop arises from solving for the wrench with the other ports.
+
+    Args:
+        body: the modal body.
+        attachment_nodes: grid ids where landing gears are attached.
+        monitor_nodes: grid ids to watch.
+        gravity: acceleration, m/s²; numeric parameter. 0, the default, stands for lift
+            equal to weight.
+
+    Raises:
+        ValueError: a node is not one of the body's.
+    """
+
+    def __init__(
+        self,
+        body: ModalBody,
+        attachment_nodes: Sequence[int],
+        monitor_nodes: Sequence[int] = (),
+        gravity: float = 0.0,
+    ) -> None:
+        super().__init__()
+        self.n = n = body.n
+        self._scale = scale = mode_scales(body)
+        self._nodes = Nodes.of(body, attachment_nodes, scale)
+        self._monitors = Nodes.of(body, monitor_nodes, scale)
+        self._mass, self._inertia = body.mass, body.inertia_G
+        self._modal_mass = body.modal_mass * scale**2
+        self._stiffness = (2.0 * np.pi * body.frequency) ** 2
+        self._damping = (
+            body.modal_damping * np.outer(scale, scale) / self._modal_mass[:, None]
+        )
+        self._inverse_inertia = np.linalg.inv(body.inertia_G)
+        self._inverse_mass = np.zeros((6, 6))
+        self._inverse_mass[:3, :3] = np.eye(3) / body.mass
+        self._inverse_mass[3:, 3:] = self._inverse_inertia
+
+        x0 = np.zeros(13 + 2 * n)
+        x0[3] = 1.0
+        self.DeclareContinuousState(BasicVector(x0))
+        self._gravity = NumericParameterIndex(
+            self.DeclareNumericParameter(BasicVector([gravity]))
+        )
+        k_a, k_m = len(self._nodes), len(self._monitors)
+        self._wrench = self.DeclareVectorInputPort("attachment_wrench", 6 * k_a)
+        self._external = self.DeclareVectorInputPort("external_load", 6 + n)
+        self._declare_cache()
+        self._declare_node_ports(k_a)
+        self._declare_monitor_ports(k_m)
+        self._declare_state_ports()
+
+    def _declare_cache(self) -> None:
+        def entry(name, calc, *sources):
+            producer = ValueProducer(allocate=lambda: Value(object()), calc=calc)
+            tickets = {source.ticket() for source in sources}
+            return self.DeclareCacheEntry(name, producer, tickets)
+
+        self._motion = self.DeclareCacheEntry(
+            "motion",
+            ValueProducer(allocate=lambda: Value(object()), calc=self._calc_motion),
+            {self.xc_ticket()},
+        )
+        self._free = self.DeclareCacheEntry(
+            "free_acceleration",
+            ValueProducer(allocate=lambda: Value(object()), calc=self._calc_free),
+            {
+                self._motion.ticket(),
+                self._external.ticket(),
+                self.numeric_parameter_ticket(self._gravity),
+            },
+        )
+        self._loaded = entry(
+            "acceleration", self._calc_loaded, self._motion, self._free, self._wrench
+        )
+        self._monitor_motion = entry(
+            "monitor_motion", self._calc_monitor_motion, self._motion
+        )
+
+    def _declare_node_ports(self, k: int) -> None:
+        motion = {self._motion.ticket()}
+        free = {self._motion.ticket(), self._free.ticket()}
+        loaded = {self._motion.ticket(), self._loaded.ticket()}
+        declare = self.DeclareVectorOutputPort
+        declare("node_pose", 12 * k, self._calc_node_pose, motion)
+        declare("node_velocity", 6 * k, self._calc_node_velocity, motion)
+        declare("node_compliance", 36 * k * k, self._calc_node_compliance, motion)
+        declare(
+            "node_free_acceleration", 6 * k, self._calc_node_free_acceleration, free
+        )
+        declare("node_acceleration", 6 * k, self._calc_node_acceleration, loaded)
+
+    def _declare_monitor_ports(self, k: int) -> None:
+        motion = {self._monitor_motion.ticket()}
+        loaded = motion | {self._motion.ticket(), self._loaded.ticket()}
+        declare = self.DeclareVectorOutputPort
+        declare("monitor_pose", 12 * k, self._calc_monitor_pose, motion)
+        declare("monitor_velocity", 6 * k, self._calc_monitor_velocity, motion)
+        declare("monitor_acceleration", 6 * k, self._calc_monitor_acceleration, loaded)
+
+    def _declare_state_ports(self) -> None:
+        state = {self.xc_ticket()}
+        declare = self.DeclareVectorOutputPort
+        declare("pose", 7, self._calc_pose, state)
+        declare("modal_amplitudes", self.n, self._calc_modal_amplitudes, state)
+        declare("dissipated_power", 1, self._calc_dissipated_power, state)
+        declare(
+            "energy",
+            1,
+            self._calc_energy,
+            state | {self.numeric_parameter_ticket(self._gravity)},
+        )
+
+    def set_state(
+        self,
+        context: Context,
+        *,
+        p_WG: npt.ArrayLike = (0.0, 0.0, 0.0),
+        quaternion: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        v_WG: npt.ArrayLike = (0.0, 0.0, 0.0),
+        w_B: npt.ArrayLike = (0.0, 0.0, 0.0),
+        modal_amplitudes: npt.ArrayLike | None = None,
+        modal_rates: npt.ArrayLike | None = None,
+    ) -> None:
+        """Sets the state in a context of this system.
+
+        Args:
+            context: of this system.
+            p_WG: (3,) position of the centre of gravity, m.
+            quaternion: (4,) of R_WB, scalar first.
+            v_WG: (3,) velocity of the centre of gravity in W, m/s.
+            w_B: (3,) angular velocity in B, rad/s.
+            modal_amplitudes: (n,) in the amplitudes of the ModalBody; default zero.
+            modal_rates: (n,) their rates, 1/s.
+        """
+        zero = np.zeros(self.n)
+        eta = zero if modal_amplitudes is None else modal_amplitudes / self._scale
+        rate = zero if modal_rates is None else modal_rates / self._scale
+        x = np.concatenate([p_WG, quaternion, v_WG, w_B, eta, rate])
+        context.SetContinuousState(x)
+
+    def set_gravity(self, context: Context, gravity: float) -> None:
+        """Sets the acceleration of gravity, m/s², in a context of this system."""
+        context.get_mutable_numeric_parameter(self._gravity).SetAtIndex(0, gravity)
+
+    def _calc_motion(self, context, value) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        R_WB = rotation_from_quaternion(x[3:7])
+        amplitudes = x[13:].reshape(2, self.n).T
+        nodes = node_motion(self._nodes, R_WB, x[:3], x[7:13], amplitudes)
+        value.set_value(_Motion(x, R_WB, amplitudes, nodes))
+
+    def _calc_monitor_motion(self, context, value) -> None:
+        m = self._motion.Eval(context)
+        motion = node_motion(self._monitors, m.R_WB, m.x[:3], m.x[7:13], m.amplitudes)
+        value.set_value(motion)
+
+    def _calc_free(self, context, value) -> None:
+        """Generalised accelerations [a_WG in W; ω' in B] (6) and η" (n), no wrench."""
+        m = self._motion.Eval(context)
+        w_B = m.x[10:13]
+        rigid = np.zeros(6)
+        a, b, c = w_B.tolist()
+        h, i, j = (self._inertia @ w_B).tolist()
+        rigid[3:] = c * i - b * j, a * j - c * h, b * h - a * i
+        eta, rate = m.amplitudes.T
+        elastic = -self._stiffness * eta - self._damping @ rate
+        if self._external.HasValue(context):
+            load = self._external.Eval(context)
+            rigid += load[:6]
+            elastic += self._scale * load[6:] / self._modal_mass
+        rigid = self._inverse_mass @ rigid
+        rigid[2] -= context.get_numeric_parameter(self._gravity).GetAtIndex(0)
+        value.set_value((rigid, elastic))
+
+    def _calc_loaded(self, context, value) -> None:
+        nodes = self._motion.Eval(context).nodes
+        rigid, elastic = self._free.Eval(context)
+        wrench = self._wrench.Eval(context)
+        modal = (wrench @ nodes.elastic) @ self._nodes.shape
+        value.set_value(
+            (
+                rigid + self._inverse_mass @ (wrench @ nodes.rigid),
+                elastic + modal / self._modal_mass,
+            )
+        )
+
+    def DoCalcTimeDerivatives(
+        self, context: Context, derivatives: ContinuousState
+    ) -> None:
+        x = self._motion.Eval(context).x
+        rigid, elastic = self._loaded.Eval(context)
+        out = np.empty_like(x)
+        out[:3] = x[7:10]
+        out[3:7] = quaternion_rate(x[3:7], x[10:13])
+        out[7:13] = rigid
+        out[13 : 13 + self.n] = x[13 + self.n :]
+        out[13 + self.n :] = elastic
+        derivatives.SetFromVector(out)
+
+    def _calc_node_pose(self, context, output) -> None:
+        output.SetFromVector(_stack_pose(self._motion.Eval(context).nodes))
+
+    def _calc_node_velocity(self, context, output) -> None:
+        output.SetFromVector(self._motion.Eval(context).nodes.velocity)
+
+    def _calc_node_compliance(self, context, output) -> None:
+        nodes = self._motion.Eval(context).nodes
+        rigid = nodes.rigid @ self._inverse_mass @ nodes.rigid.T
+        elastic = nodes.elastic @ self._nodes.compliance @ nodes.elastic.T
+        output.SetFromVector((rigid + elastic).ravel())
+
+    def _calc_node_free_acceleration(self, context, output) -> None:
+        nodes = self._motion.Eval(context).nodes
+        free = self._free.Eval(context)
+        output.SetFromVector(_acceleration(nodes, self._nodes, *free))
+
+    def _calc_node_acceleration(self, context, output) -> None:
+        nodes = self._motion.Eval(context).nodes
+        loaded = self._loaded.Eval(context)
+        output.SetFromVector(_acceleration(nodes, self._nodes, *loaded))
+
+    def _calc_monitor_pose(self, context, output) -> None:
+        output.SetFromVector(_stack_pose(self._monitor_motion.Eval(context)))
+
+    def _calc_monitor_velocity(self, context, output) -> None:
+        output.SetFromVector(self._monitor_motion.Eval(context).velocity)
+
+    def _calc_monitor_acceleration(self, context, output) -> None:
+        nodes = self._monitor_motion.Eval(context)
+        loaded = self._loaded.Eval(context)
+        in_W = _acceleration(nodes, self._monitors, *loaded).reshape(-1, 2, 3)
+        in_B = in_W @ self._motion.Eval(context).R_WB
+        output.SetFromVector(in_B[:, ::-1].ravel())
+
+    def _calc_pose(self, context, output) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        q = x[3:7]
+        output.SetFromVector(np.concatenate([q / np.sqrt(q @ q), x[:3]]))
+
+    def _calc_modal_amplitudes(self, context, output) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        output.SetFromVector(self._scale * x[13 : 13 + self.n])
+
+    def _calc_dissipated_power(self, context, output) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        rate = x[13 + self.n :]
+        output.SetAtIndex(0, (self._modal_mass * rate) @ (self._damping @ rate))
+
+    def _calc_energy(self, context, output) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        v, w = x[7:10], x[10:13]
+        eta, rate = x[13:].reshape(2, self.n)
+        g = context.get_numeric_parameter(self._gravity).GetAtIndex(0)
+        twice = self._mass * (v @ v + 2.0 * g * x[2]) + w @ self._inertia @ w
+        twice += self._modal_mass @ (rate**2 + self._stiffness * eta**2)
+        output.SetAtIndex(0, 0.5 * twice)
+
+
+def _acceleration(
+    motion: NodeMotion, nodes: Nodes, rigid: Float64, elastic: Float64
+) -> Float64:
+    return motion.rigid @ rigid + motion.elastic @ (nodes.shape @ elastic) + motion.bias
+
+
+def _stack_pose(motion: NodeMotion) -> Float64:
+    k = len(motion.p)
+    return np.concatenate([motion.R.reshape(k, 9), motion.p], axis=1).ravel()
