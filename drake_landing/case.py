@@ -209,7 +209,7 @@ class Simulation(Section):
     )
     max_step: float = number("largest step", "s", 5e-3, gt=0, le=0.1)
     clearance: float = number(
-        "height of the lowest tyre over the runway at start", "m", 1e-3, gt=0, le=1
+        "height of the lowest tyre over the runway at start", "m", 5e-3, gt=0, le=1
     )
 
 

@@ -203,7 +203,10 @@ def _child(node: yaml.Node, step: int | str) -> tuple[int, yaml.Node] | None:
         for key, value in node.value:
             if key.value == str(step):
                 return key.start_mark.line + 1, value
-    elif isinstance(node, yaml.SequenceNode) and isinstance(step, int):
-        if step < len(node.value):
-            return node.value[step].start_mark.line + 1, node.value[step]
+    elif (
+        isinstance(node, yaml.SequenceNode)
+        and isinstance(step, int)
+        and step < len(node.value)
+    ):
+        return node.value[step].start_mark.line + 1, node.value[step]
     return None
