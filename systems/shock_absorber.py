@@ -1,0 +1,315 @@
+"""The shock absorber of a landing gear: gas, oil, friction and both end stops.
+
+The force is positive where it drives fitting and wheel apart, stroke and rate are
+positive in compression. Its parts:
+
+    gas       `gas_spring`
+    damping   `orifice_damper`
+    friction  smoothed Coulomb: seals (a share of the gas force) and bearings (a share
+              of their reactions to the load across the strut)
+    stops     `stops`: bottoming beyond the mechanical stroke, and the extension stop
+
+The extension stop carries the gas preload. With stiffness k_e it is compressed by
+s_0 = F_0/k_e at zero stroke, where it holds the gas force exactly: the net force is
+zero at rest, and rises continuously with the slope k_e as the stop lets go between
+s = 0 and s_0. No load reaches the airframe before touchdown.
+
+Energy: d(energy)/dt + dissipated_power = force × rate, energy zero at rest.
+"""
+
+from dataclasses import dataclass
+
+from pydrake.autodiffutils import AutoDiffXd
+from pydrake.common.containers import namedview
+from pydrake.systems.framework import (
+    BasicVector_,
+    LeafSystem_,
+    NumericParameterIndex,
+)
+from pydrake.systems.scalar_conversion import TemplateSystem
+
+from systems.checks import require
+from systems.gas_spring import GasSpring, gas_energy, gas_force
+from systems.orifice_damper import bearing_reactions, coulomb_force, orifice_force
+from systems.scalar import Scalar
+from systems.stops import contact_elastic, contact_energy, never_pulling
+from systems.table import Table
+
+StrutState = namedview("StrutState", ["stroke", "rate"])
+StrutComponents = namedview("StrutComponents", ["gas", "damping", "friction", "stops"])
+ShockAbsorberTunables = namedview(
+    "ShockAbsorberTunables",
+    [
+        "precharge",
+        "gas_length",
+        "exponent",
+        "compression_damping",
+        "rebound_damping",
+        "seal_friction",
+        "bearing_friction",
+    ],
+)
+"""The numeric parameters that a run may change, in the order of the system."""
+
+# The gas law is continued along its tangent over the last tenth of the way from the
+# mechanical stroke to the end of the gas.
+_GAS_LIMIT = 0.9
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShockAbsorberParameters:
+    """Parameters of a shock absorber.
+
+    Attributes:
+        gas: the gas spring.
+        max_stroke: m, mechanical stroke, where the bottoming stop begins.
+        compression_damping, rebound_damping: N s²/m².
+        compression_metering, rebound_metering: factors on the damping over stroke (m).
+        extension_stop_stiffness, bottoming_stop_stiffness: N/m.
+        stop_damping: s/m, χ of both stops.
+        seal_friction: friction force over gas force.
+        bearing_friction: friction force over bearing reactions.
+        axle_arm: m, axle below the lower bearing at full extension.
+        bearing_distance: m, between the bearings at full extension.
+        friction_transition: m/s, rate within which friction changes sign.
+
+    Raises:
+        ValueError: a value is out of range; the message names it, its unit and range.
+    """
+
+    gas: GasSpring
+    max_stroke: float
+    compression_damping: float
+    rebound_damping: float
+    compression_metering: Table | None = None
+    rebound_metering: Table | None = None
+    extension_stop_stiffness: float = 5e7
+    bottoming_stop_stiffness: float = 3e7
+    stop_damping: float = 0.5
+    seal_friction: float = 0.0
+    bearing_friction: float = 0.0
+    axle_arm: float = 0.0
+    bearing_distance: float = 1.0
+    friction_transition: float = 0.02
+
+    def __post_init__(self) -> None:
+        owner = "shock absorber"
+        length = self.gas.total_length
+        require(owner, "max_stroke", self.max_stroke, "m", above=0.0)
+        if not self.max_stroke < length:
+            raise ValueError(
+                f"{owner}: max_stroke is {self.max_stroke} m, expected < {length} m, "
+                "the length of the gas"
+            )
+        for name, unit in (
+            ("compression_damping", "N s²/m²"),
+            ("rebound_damping", "N s²/m²"),
+            ("stop_damping", "s/m"),
+            ("axle_arm", "m"),
+        ):
+            require(owner, name, getattr(self, name), unit, at_least=0.0)
+        for name, unit in (
+            ("extension_stop_stiffness", "N/m"),
+            ("bottoming_stop_stiffness", "N/m"),
+            ("bearing_distance", "m"),
+            ("friction_transition", "m/s"),
+        ):
+            require(owner, name, getattr(self, name), unit, above=0.0)
+        for name in ("seal_friction", "bearing_friction"):
+            require(owner, name, getattr(self, name), "", at_least=0.0, at_most=1.0)
+        for name in ("compression_metering", "rebound_metering"):
+            table = getattr(self, name)
+            if table is not None and min(table.y) < 0.0:
+                raise ValueError(
+                    f"{owner}: {name} has the factor {min(table.y)}, expected >= 0"
+                )
+
+    @property
+    def tunables(self) -> list[float]:
+        """Values of the numeric parameters, in the order of ShockAbsorberTunables."""
+        return [
+            float(self.gas.precharge),
+            float(self.gas.gas_length),
+            float(self.gas.exponent),
+            float(self.compression_damping),
+            float(self.rebound_damping),
+            float(self.seal_friction),
+            float(self.bearing_friction),
+        ]
+
+
+class StrutLaw:
+    """The force law of one strut: pure functions of stroke, rate and side load.
+
+    `tunables` are the seven values of ShockAbsorberTunables, floats or AutoDiffXd.
+    """
+
+    def __init__(self, parameters: ShockAbsorberParameters) -> None:
+        p = parameters
+        self._p = p
+        second = p.gas.second
+        self._second = (
+            (float(second.precharge), float(second.gas_length), float(second.exponent))
+            if second
+            else None
+        )
+        self._second_length = self._second[1] if self._second else 0.0
+
+    def _limit(self, gas_length: Scalar) -> Scalar:
+        length = gas_length + self._second_length
+        return length - (1.0 - _GAS_LIMIT) * (length - self._p.max_stroke)
+
+    def parts(
+        self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
+    ) -> tuple[Scalar, Scalar, Scalar, Scalar, Scalar]:
+        """Gas, oil damping, friction, stops' elastic and damping force, N each."""
+        p = self._p
+        f0, length, n, compression, rebound, seal, bearing = tunables
+        gas = gas_force(s, (f0, length, n), self._second, self._limit(length))
+        damping = orifice_force(
+            s,
+            rate,
+            compression,
+            rebound,
+            p.compression_metering,
+            p.rebound_metering,
+        )
+        friction = 0.0 * rate
+        if seal > 0.0 or bearing > 0.0:
+            reactions = bearing_reactions(side_load, s, p.axle_arm, p.bearing_distance)
+            friction = coulomb_force(
+                rate, seal * gas + bearing * reactions, p.friction_transition
+            )
+        # F_0 - k s rather than k (F_0/k - s): exactly F_0 at zero stroke.
+        elastic = damper = 0.0 * rate
+        extension = f0 - p.extension_stop_stiffness * s
+        if extension > 0.0:
+            elastic = -extension
+            damper = -never_pulling(extension, -extension * p.stop_damping * rate)
+        bottoming = contact_elastic(s - p.max_stroke, p.bottoming_stop_stiffness)
+        if bottoming > 0.0:
+            elastic = elastic + bottoming
+            damper = damper + never_pulling(
+                bottoming, bottoming * p.stop_damping * rate
+            )
+        return gas, damping, friction, elastic, damper
+
+    def force(
+        self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
+    ) -> Scalar:
+        """Total force, positive apart, N."""
+        gas, damping, friction, elastic, damper = self.parts(
+            s, rate, side_load, tunables
+        )
+        return (gas + elastic) + damping + friction + damper
+
+    def energy(self, s: Scalar, tunables: list[Scalar]) -> Scalar:
+        """Energy stored in gas and stops, zero at zero stroke, J."""
+        p = self._p
+        f0, length, n = tunables[:3]
+        k = p.extension_stop_stiffness
+        preload = f0 / k
+        return (
+            gas_energy(s, (f0, length, n), self._second, self._limit(length))
+            + contact_energy(preload - s, k)
+            - 0.5 * f0 * preload
+            + contact_energy(s - p.max_stroke, p.bottoming_stop_stiffness)
+        )
+
+    def dissipated_power(
+        self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
+    ) -> Scalar:
+        """Power turned into heat, never negative, W."""
+        _, damping, friction, _, damper = self.parts(s, rate, side_load, tunables)
+        return (damping + friction + damper) * rate
+
+
+@TemplateSystem.define("ShockAbsorber_", T_list=(float, AutoDiffXd))
+def ShockAbsorber_(T):
+    class Impl(LeafSystem_[T]):
+        """A shock absorber: `ShockAbsorber(parameters)`.
+
+        | port | size | unit | frame and sign |
+        |---|---|---|---|
+        | in `strut_state` | 2 | m, m/s | stroke, rate; positive in compression |
+        | in `side_load` (optional) | 1 | N | load across the strut at the axle |
+        | out `force` | 1 | N | along the strut, positive apart |
+        | out `energy` | 1 | J | stored, zero at zero stroke |
+        | out `dissipated_power` | 1 | W | >= 0 |
+        | out `components` | 4 | N | gas, damping, friction, stops, positive apart |
+        | out `gas_pressure` (where the area is given) | 1 | Pa | absolute |
+
+        No state. Numeric parameters: `ShockAbsorberTunables`. A side load that is not
+        connected is zero.
+        """
+
+        def _construct(self, parameters: ShockAbsorberParameters, converter=None):
+            LeafSystem_[T].__init__(self, converter=converter)
+            self._parameters = parameters
+            self._law = StrutLaw(parameters)
+            self._tunables = NumericParameterIndex(
+                self.DeclareNumericParameter(BasicVector_[T](parameters.tunables))
+            )
+            self._state = self.DeclareVectorInputPort("strut_state", 2)
+            self._side_load = self.DeclareVectorInputPort("side_load", 1)
+            parameter = self.numeric_parameter_ticket(self._tunables)
+            state = {self._state.ticket(), parameter}
+            everything = {*state, self._side_load.ticket()}
+            for name, size, calc, tickets in (
+                ("force", 1, self._calc_force, everything),
+                ("energy", 1, self._calc_energy, state),
+                ("dissipated_power", 1, self._calc_dissipated_power, everything),
+                ("components", 4, self._calc_components, everything),
+            ):
+                self.DeclareVectorOutputPort(
+                    name, size, calc, prerequisites_of_calc=tickets
+                )
+            if parameters.gas.area is not None:
+                self.DeclareVectorOutputPort(
+                    "gas_pressure",
+                    1,
+                    self._calc_gas_pressure,
+                    prerequisites_of_calc=state,
+                )
+
+        def _construct_copy(self, other, converter=None):
+            Impl._construct(self, other._parameters, converter=converter)
+
+        @property
+        def parameters(self) -> ShockAbsorberParameters:
+            return self._parameters
+
+        def _inputs(self, context):
+            """stroke, rate, side load, tunables."""
+            s, rate = self._state.Eval(context).tolist()
+            p = context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
+            side_load = 0.0
+            if p[6] > 0.0 and self._side_load.HasValue(context):
+                side_load = self._side_load.Eval(context).tolist()[0]
+            return s, rate, side_load, p
+
+        def _calc_force(self, context, output):
+            output.SetAtIndex(0, self._law.force(*self._inputs(context)))
+
+        def _calc_energy(self, context, output):
+            s, _, _, p = self._inputs(context)
+            output.SetAtIndex(0, self._law.energy(s, p))
+
+        def _calc_dissipated_power(self, context, output):
+            output.SetAtIndex(0, self._law.dissipated_power(*self._inputs(context)))
+
+        def _calc_components(self, context, output):
+            gas, damping, friction, elastic, damper = self._law.parts(
+                *self._inputs(context)
+            )
+            output.SetFromVector([gas, damping, friction, elastic + damper])
+
+        def _calc_gas_pressure(self, context, output):
+            s, rate, side_load, p = self._inputs(context)
+            gas = self._law.parts(s, rate, side_load, p)[0]
+            output.SetAtIndex(0, gas / self._parameters.gas.area)
+
+    return Impl
+
+
+ShockAbsorber = ShockAbsorber_[None]
