@@ -1,0 +1,140 @@
+"""A tyre on a runway, as a Drake system; the law is in `tire_law`."""
+
+import math
+
+from pydrake.autodiffutils import AutoDiffXd
+from pydrake.common.containers import namedview
+from pydrake.math import atan2
+from pydrake.systems.framework import (
+    BasicVector_,
+    LeafSystem_,
+    NumericParameterIndex,
+)
+from pydrake.systems.scalar_conversion import TemplateSystem
+
+from systems.runway import Runway
+from systems.tire_law import TireLaw, TireParameters
+
+TireContact = namedview(
+    "TireContact", ["deflection", "F_z", "F_x", "F_y", "slip", "slip_angle"]
+)
+"""The elements of the port `contact`."""
+
+TireTunables = namedview("TireTunables", ["stiffness", "damping", "friction"])
+"""The numeric parameters: factors on the law's stiffness, damping and friction."""
+
+
+@TemplateSystem.define("Tire_", T_list=(float, AutoDiffXd))
+def Tire_(T):
+    class Impl(LeafSystem_[T]):
+        """A tyre: `Tire(parameters, runway)`; the runway is flat and dry by default.
+
+        | port | size | unit | frame and sign |
+        |---|---|---|---|
+        | in `wheel` | 12 | m, -, m/s, rad/s | p_WC, axle direction (unit vector, to |
+        |  |  |  | starboard at rest), v_WC, ω_WH; world frame |
+        | out `wrench` | 6 | N m, N | [torque; force] of the ground on the wheel at |
+        |  |  |  | its centre; world frame |
+        | out `contact` | 6 | m, N, -, rad | `TireContact` |
+        | out `energy` | 1 | J | stored in the radial deflection |
+        | out `dissipated_power` | 1 | W | damping and sliding |
+
+        `contact`: deflection (negative: clearance); F_z along the surface normal; F_x
+        along axle × normal, aft at rest: positive as drag of an aircraft rolling
+        forward; F_y across, to starboard at rest; slip (v_x - r_r ω)/v_x, positive for
+        braking when rolling forward, lagged where there is a relaxation length; slip
+        angle, positive for sliding to starboard. In the air all but the deflection is
+        zero.
+
+        States: none; with relaxation_length > 0 the lagged slips along and across.
+        Numeric parameters: `TireTunables`, 1 each.
+
+        Energy: wrench power on the wheel + d(energy)/dt + dissipated_power = 0. The
+        dissipated power is never negative without a relaxation length; with it, it
+        contains what the carcass stores for a moment across and along.
+        """
+
+        def _construct(
+            self,
+            parameters: TireParameters,
+            runway: Runway | None = None,
+            converter=None,
+        ):
+            LeafSystem_[T].__init__(self, converter=converter)
+            self._parameters = parameters
+            self._runway = Runway() if runway is None else runway
+            self._law = TireLaw(parameters, self._runway)
+            self._lagged = parameters.relaxation_length > 0.0
+            self._tunables = NumericParameterIndex(
+                self.DeclareNumericParameter(BasicVector_[T]([1.0, 1.0, 1.0]))
+            )
+            self._wheel = self.DeclareVectorInputPort("wheel", 12)
+            geometry = {
+                self._wheel.ticket(),
+                self.numeric_parameter_ticket(self._tunables),
+            }
+            everything = set(geometry)
+            if self._lagged:
+                self.DeclareContinuousState(BasicVector_[T]([0.0, 0.0]))
+                everything.add(self.xc_ticket())
+            for name, size, calc, tickets in (
+                ("wrench", 6, self._calc_wrench, everything),
+                ("contact", 6, self._calc_contact, everything),
+                ("energy", 1, self._calc_energy, geometry),
+                ("dissipated_power", 1, self._calc_dissipated_power, everything),
+            ):
+                self.DeclareVectorOutputPort(
+                    name, size, calc, prerequisites_of_calc=tickets
+                )
+
+        def _construct_copy(self, other, converter=None):
+            Impl._construct(self, other._parameters, other._runway, converter=converter)
+
+        @property
+        def parameters(self) -> TireParameters:
+            return self._parameters
+
+        def _factors(self, context):
+            return context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
+
+        def _contact(self, context):
+            """The law's tuple of values, see TireLaw.contact."""
+            slip_state = None
+            if self._lagged:
+                state = context.get_continuous_state_vector()
+                slip_state = state.CopyToVector().tolist()
+            return self._law.contact(
+                self._wheel.Eval(context).tolist(), slip_state, self._factors(context)
+            )
+
+        def _calc_wrench(self, context, output):
+            output.SetFromVector(self._contact(context)[:6])
+
+        def _calc_contact(self, context, output):
+            values = self._contact(context)
+            deflection, fz, ft, fl, slip, slide, travel = values[6:13]
+            angle = 0.0 * deflection
+            if deflection > 0.0 and (slide != 0.0 or travel != 0.0):
+                angle = (math.atan2 if T is float else atan2)(slide, abs(travel))
+            # Forward is -t; the curve's slip is along t.
+            output.SetFromVector([deflection, fz, ft, fl, -slip, angle])
+
+        def _calc_energy(self, context, output):
+            deflection = self._law.deflection(self._wheel.Eval(context).tolist())
+            output.SetAtIndex(
+                0, self._law.energy(deflection, self._factors(context)[0])
+            )
+
+        def _calc_dissipated_power(self, context, output):
+            output.SetAtIndex(0, self._contact(context)[13])
+
+        def DoCalcTimeDerivatives(self, context, derivatives):
+            if self._lagged:
+                derivatives.get_mutable_vector().SetFromVector(
+                    self._contact(context)[14:16]
+                )
+
+    return Impl
+
+
+Tire = Tire_[None]
