@@ -160,9 +160,9 @@ class EigenProblem:
         shift = self._base_shift(None if limit is None else limit[0])
         with self._factorize(shift) as factor:
             lanczos = BlockLanczos(factor.solve, self.mass, block=_block(wanted))
-            guard = 0 if limit is not None else 1
+            target = wanted if limit is not None else wanted + 1
             for attempt in range(_RANDOM_RESTARTS):
-                pairs = _grow(lanczos, wanted + guard, self.progress)
+                pairs = _grow(lanczos, target, self.progress)
                 values = 1.0 / pairs.theta + shift
                 converged = np.argsort(values)[:wanted]
                 if limit is not None and wanted == limit[1]:
@@ -174,6 +174,7 @@ class EigenProblem:
                 missing = sum(c.counted - c.found for c in sturm)
                 if missing == 0 or lanczos.exhausted or attempt == _LAST_ATTEMPT:
                     break
+                target = max(target, *(c.counted for c in sturm))
                 _look_again(lanczos, pairs, missing)
             chosen = converged[below:]
             shapes = lanczos.vectors(pairs, chosen)
