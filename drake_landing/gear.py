@@ -74,29 +74,66 @@ class Tyre(_Data):
     """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'."""
 
     radius: Positive = Field(description="unloaded radius, m, > 0")
-    stiffness: Positive = Field(description="vertical stiffness, N/m, > 0")
-    damping: NotNegative = Field(default=0.0, description="vertical damping, N s/m")
-    nominal_force: float = Field(
-        default=0.0, description="F_zN, subtracted from the vertical force, N"
+    stiffness: Positive | None = Field(
+        default=None, description="vertical stiffness, N/m, > 0; or give load_table"
     )
     load_table: Table | None = Field(
         default=None,
-        description="measured deflection (m, from 0, ascending) against load (N); "
-        "replaces stiffness",
+        description="measured deflection (m, ascending) against load (N), from [0, 0]; "
+        "instead of stiffness",
+    )
+    damping: NotNegative = Field(default=0.0, description="vertical damping, N s/m")
+    nominal_force: NotNegative = Field(
+        default=0.0, description="F_zN, subtracted from the vertical force, N"
+    )
+    bottoming_deflection: Positive | None = Field(
+        default=None, description="deflection at which the rim touches, m; default none"
+    )
+    bottoming_stiffness: Positive = Field(
+        default=2e7, description="of the rim, added beyond bottoming_deflection, N/m"
     )
     friction_peak: NotNegative = Field(
-        default=0.8, le=2.0, description="largest friction coefficient"
+        default=0.8, le=2.0, description="D of mu = D sin(C atan(B slip)), 0 to 2"
     )
-    friction_shape: Positive = Field(
-        default=1.6, le=2.0, description="C of mu = D sin(C atan(B slip))"
+    friction_shape: float = Field(
+        default=1.6, ge=1.0, le=2.0, description="C of the friction law, 1 to 2"
     )
-    friction_slope: Positive = Field(
-        default=12.5, description="B of mu = D sin(C atan(B slip))"
+    friction_stiffness: Positive = Field(
+        default=12.5, description="B of the friction law, > 0"
+    )
+    friction_table: Table | None = Field(
+        default=None,
+        description="slip (ascending) against friction coefficient, from [0, 0]; "
+        "instead of the friction law",
+    )
+    lateral_friction_ratio: Positive = Field(
+        default=1.0, description="friction across over friction along the wheel, > 0"
+    )
+    relaxation_length: NotNegative = Field(
+        default=0.0, description="m; 0: the force follows the slip without delay"
+    )
+
+    @model_validator(mode="after")
+    def _one_law(self) -> Self:
+        if (self.stiffness is None) == (self.load_table is None):
+            raise ValueError("give either stiffness or load_table")
+        return self
+
+
+class GasChamber(_Data):
+    """A second gas chamber behind a floating piston."""
+
+    precharge_force: Positive = Field(
+        description="strut force at which the floating piston starts to move, N"
+    )
+    gas_length: Positive = Field(description="volume over main piston area, m")
+    gas_exponent: float = Field(
+        default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
     )
 
 
 class ShockAbsorber(_Data):
-    """Gas spring, orifice damper and end stops along the strut.
+    """Gas spring, orifice damper, friction and end stops along the strut.
 
     The gas force is precharge_force·(1 - stroke/gas_length)^(-gas_exponent).
     """
@@ -106,33 +143,53 @@ class ShockAbsorber(_Data):
     precharge_force: Positive = Field(
         description="gas force fully extended, N, > 0; the extension stop carries it"
     )
-    gas_exponent: Positive = Field(default=1.4, description="polytropic exponent")
+    gas_exponent: float = Field(
+        default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
+    )
+    second_chamber: GasChamber | None = None
+    piston_area: Positive | None = Field(
+        default=None, description="m²; where given, the gas pressure is reported"
+    )
     compression_damping: NotNegative = Field(
         description="force over squared rate when closing, N s²/m²"
     )
     rebound_damping: NotNegative = Field(
         description="force over squared rate when opening, N s²/m²"
     )
-    compression_table: Table | None = Field(
-        default=None,
-        description="metering: stroke (m, ascending) against compression_damping",
+    compression_metering: Table | None = Field(
+        default=None, description="stroke (m) against factor on compression_damping"
     )
-    rebound_table: Table | None = Field(
-        default=None,
-        description="metering: stroke (m, ascending) against rebound_damping",
+    rebound_metering: Table | None = Field(
+        default=None, description="stroke (m) against factor on rebound_damping"
     )
-    compression_stop_stiffness: Positive = Field(default=3e7, description="N/m")
-    extension_stop_stiffness: Positive = Field(default=5e7, description="N/m")
+    compression_stop_stiffness: Positive = Field(
+        default=3e7, description="beyond the stroke, N/m, > 0"
+    )
+    extension_stop_stiffness: Positive = Field(default=5e7, description="N/m, > 0")
     stop_damping: NotNegative = Field(
-        default=0.0, description="damping of both end stops, N s/m"
+        default=0.5, description="damping over elastic force of the stops, s/m"
+    )
+    seal_friction: float = Field(
+        default=0.0, ge=0, le=1, description="friction force over gas force"
+    )
+    bearing_friction: float = Field(
+        default=0.0, ge=0, le=1, description="friction force over bearing reactions"
+    )
+    bearing_distance: Positive = Field(
+        default=0.5, description="between the bearings, extended, m, > 0"
+    )
+    axle_arm: NotNegative = Field(
+        default=1.0, description="axle below the lower bearing, extended, m"
     )
 
     @model_validator(mode="after")
     def _gas_remains(self) -> Self:
-        if self.gas_length <= self.stroke:
+        second = self.second_chamber
+        length = self.gas_length + (second.gas_length if second else 0.0)
+        if length <= self.stroke:
             raise ValueError(
-                f"gas_length {self.gas_length} m must exceed the stroke "
-                f"{self.stroke} m: at full stroke some gas is left"
+                f"gas_length {length} m must exceed the stroke {self.stroke} m: at "
+                "full stroke some gas is left"
             )
         return self
 

@@ -13,6 +13,7 @@ what is neglected is of the order of deformation over size of the body.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -124,30 +125,28 @@ class FlexibleAirframe(LeafSystem):
         self._declare_state_ports()
 
     def _declare_cache(self) -> None:
-        def entry(name, calc, *sources):
+        def entry(name: str, calc, *tickets) -> Any:
             producer = ValueProducer(allocate=lambda: Value(object()), calc=calc)
-            tickets = {source.ticket() for source in sources}
-            return self.DeclareCacheEntry(name, producer, tickets)
+            return self.DeclareCacheEntry(name, producer, set(tickets))
 
-        self._motion = self.DeclareCacheEntry(
-            "motion",
-            ValueProducer(allocate=lambda: Value(object()), calc=self._calc_motion),
-            {self.xc_ticket()},
-        )
-        self._free = self.DeclareCacheEntry(
+        self._motion = entry("motion", self._calc_motion, self.xc_ticket())
+        motion = self._motion.ticket()
+        self._free = entry(
             "free_acceleration",
-            ValueProducer(allocate=lambda: Value(object()), calc=self._calc_free),
-            {
-                self._motion.ticket(),
-                self._external.ticket(),
-                self.numeric_parameter_ticket(self._gravity),
-            },
+            self._calc_free,
+            motion,
+            self._external.ticket(),
+            self.numeric_parameter_ticket(self._gravity),
         )
         self._loaded = entry(
-            "acceleration", self._calc_loaded, self._motion, self._free, self._wrench
+            "acceleration",
+            self._calc_loaded,
+            motion,
+            self._free.ticket(),
+            self._wrench.ticket(),
         )
         self._monitor_motion = entry(
-            "monitor_motion", self._calc_monitor_motion, self._motion
+            "monitor_motion", self._calc_monitor_motion, motion
         )
 
     def _declare_node_ports(self, k: int) -> None:
@@ -207,9 +206,10 @@ class FlexibleAirframe(LeafSystem):
             modal_rates: (n,) their rates, 1/s.
         """
         zero = np.zeros(self.n)
-        eta = zero if modal_amplitudes is None else modal_amplitudes / self._scale
-        rate = zero if modal_rates is None else modal_rates / self._scale
-        x = np.concatenate([p_WG, quaternion, v_WG, w_B, eta, rate])
+        eta = zero if modal_amplitudes is None else np.asarray(modal_amplitudes)
+        rate = zero if modal_rates is None else np.asarray(modal_rates)
+        modal = (eta / self._scale, rate / self._scale)
+        x = np.concatenate([p_WG, quaternion, v_WG, w_B, *modal])
         context.SetContinuousState(x)
 
     def set_gravity(self, context: Context, gravity: float) -> None:

@@ -1,0 +1,71 @@
+"""Gear data as the parameters of the systems."""
+
+from drake_landing.gear import ShockAbsorber, Tyre
+from systems.gas_spring import GasSpring, SecondChamber
+from systems.shock_absorber import ShockAbsorberParameters
+from systems.slip import SineSlip, TabulatedSlip
+from systems.table import Table
+from systems.tire_law import TireParameters
+
+
+def shock_absorber_parameters(data: ShockAbsorber) -> ShockAbsorberParameters:
+    """Parameters of `systems.shock_absorber`; ValueError where they do not fit."""
+    second = data.second_chamber
+    gas = GasSpring(
+        precharge=data.precharge_force,
+        gas_length=data.gas_length,
+        exponent=data.gas_exponent,
+        area=data.piston_area,
+        second=second
+        and SecondChamber(
+            precharge=second.precharge_force,
+            gas_length=second.gas_length,
+            exponent=second.gas_exponent,
+        ),
+    )
+    return ShockAbsorberParameters(
+        gas=gas,
+        max_stroke=data.stroke,
+        compression_damping=data.compression_damping,
+        rebound_damping=data.rebound_damping,
+        compression_metering=_table(data.compression_metering),
+        rebound_metering=_table(data.rebound_metering),
+        extension_stop_stiffness=data.extension_stop_stiffness,
+        bottoming_stop_stiffness=data.compression_stop_stiffness,
+        stop_damping=data.stop_damping,
+        seal_friction=data.seal_friction,
+        bearing_friction=data.bearing_friction,
+        axle_arm=data.axle_arm,
+        bearing_distance=data.bearing_distance,
+    )
+
+
+def tire_parameters(data: Tyre) -> TireParameters:
+    """Parameters of `systems.tire`; ValueError where they do not fit."""
+    table = _table(data.friction_table)
+    slip = (
+        TabulatedSlip(table=table)
+        if table
+        else SineSlip(
+            peak=data.friction_peak,
+            shape=data.friction_shape,
+            stiffness=data.friction_stiffness,
+        )
+    )
+    stiffness = data.stiffness or _table(data.load_table)
+    assert stiffness is not None  # the data's own validation
+    return TireParameters(
+        radius=data.radius,
+        stiffness=stiffness,
+        nominal_force=data.nominal_force,
+        damping=data.damping,
+        bottoming_deflection=data.bottoming_deflection,
+        bottoming_stiffness=data.bottoming_stiffness,
+        slip=slip,
+        lateral_friction_ratio=data.lateral_friction_ratio,
+        relaxation_length=data.relaxation_length,
+    )
+
+
+def _table(pairs: list[tuple[float, float]] | None) -> Table | None:
+    return None if pairs is None else Table(*map(tuple, zip(*pairs)))

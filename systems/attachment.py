@@ -1,0 +1,247 @@
+"""Landing gears held by the airframe: the attachment loads.
+
+Each gear's fitting, a free body of the plant, is to follow a node of the airframe. The
+load between them is found from what both would do without it, in one solve for all
+gears, since they move each other through the airframe:
+
+    (J M⁻¹ Jᵀ + C_N) λ = a_N,free - a_F,free - 2 α g' - β² g,
+
+λ on the fittings, C_N the compliance of the nodes, g the gap and g' its rate. The last
+two terms (Baumgarte) take back the drift of the numerical integration; with a perfect
+integrator they are zero. Only inputs that do not depend on λ enter, so the diagram has
+no algebraic loop.
+"""
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from pydrake.common.value import Value
+from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlant
+from pydrake.multibody.tree import MultibodyForces, RigidBody
+from pydrake.systems.framework import Context, LeafSystem, ValueProducer
+
+from systems.gear_forces import spatial_forces
+from systems.rotations import log, rotation_from_quaternion
+
+Float64 = npt.NDArray[np.float64]
+
+
+class Attachment(LeafSystem):
+    """Common ports of the ways to attach k gears; vectors node after node.
+
+    | input port | size | unit | |
+    |---|---|---|---|
+    | plant_state | nq + nv | | |
+    | spatial_forces | abstract | | all other forces on the gears, as the plant gets |
+    | generalized_force | nv | | them too |
+    | node_pose, node_velocity | 12 k, 6 k | | of the airframe's attachment nodes, W |
+    | node_free_acceleration, node_compliance | 6 k, (6 k)² | | same |
+    | airframe_pose | 7 | | quaternion of R_WB, p_WG |
+
+    | output port | size | unit | |
+    |---|---|---|---|
+    | wrench_on_airframe | 6 k | N m, N | [torque; force] at the nodes, W |
+    | wrench_on_gear | abstract | | the opposite, for the plant |
+    | load_in_airframe_axes | 6 k | N, N m | [force; moment] on the airframe, B |
+    | gap | 12 k | rad, m, 1/s | fitting relative to node: rotation, translation and
+      their rates, W |
+    | energy | 1 | J | stored in the attachment |
+    | dissipated_power | 1 | W | |
+
+    Args:
+        plant: finalised; the fittings are free bodies on quaternion floating joints.
+        fittings: body of each gear whose frame is to coincide with its node.
+
+    Raises:
+        ValueError: a fitting is not a free body.
+    """
+
+    def __init__(self, plant: MultibodyPlant, fittings: Sequence[RigidBody]) -> None:
+        super().__init__()
+        self._plant = plant
+        self._bodies = tuple(body.index() for body in fittings)
+        self._k = k = len(fittings)
+        for body in fittings:
+            if not (body.is_floating_base_body() and body.has_quaternion_dofs()):
+                raise ValueError(
+                    f"attachment: {body.name()} must be a free body of the plant, with "
+                    "a quaternion floating joint"
+                )
+        nq = plant.num_positions()
+        self._quaternions = [slice(i, i + 4) for i in _starts(fittings)]
+        self._translations = np.add.outer(_starts(fittings), [4, 5, 6])
+        v = np.array([body.floating_velocities_start_in_v() for body in fittings])
+        self._rows = np.add.outer(v, np.arange(6)).ravel()
+        self._state_rows = nq + self._rows
+
+        vector = self.DeclareVectorInputPort
+        self._state = vector("plant_state", plant.num_multibody_states())
+        self._spatial = self.DeclareAbstractInputPort(
+            "spatial_forces", Value([ExternallyAppliedSpatialForce()])
+        )
+        self._generalized = vector("generalized_force", plant.num_velocities())
+        self._pose = vector("node_pose", 12 * k)
+        self._velocity = vector("node_velocity", 6 * k)
+        self._acceleration = vector("node_free_acceleration", 6 * k)
+        self._compliance = vector("node_compliance", 36 * k * k)
+        self._airframe_pose = vector("airframe_pose", 7)
+        self._gap: Any = self._entry(
+            "gap", self._calc_gap, {self._state, self._pose, self._velocity}
+        )
+        self._wrench: Any = self._entry(
+            "wrench", self._calc_wrench, {self._gap, *self._sources()}
+        )
+        self._declare_outputs(k)
+
+    def _entry(self, name: str, calc, sources) -> Any:
+        producer = ValueProducer(allocate=lambda: Value(object()), calc=calc)
+        return self.DeclareCacheEntry(name, producer, {s.ticket() for s in sources})
+
+    def _declare_outputs(self, k: int) -> None:
+        wrench, gap = {self._wrench.ticket()}, {self._gap.ticket()}
+        vector = self.DeclareVectorOutputPort
+        vector("wrench_on_airframe", 6 * k, self._calc_on_airframe, wrench)
+        self.DeclareAbstractOutputPort(
+            "wrench_on_gear",
+            lambda: Value([ExternallyAppliedSpatialForce()]),
+            self._calc_on_gear,
+            wrench,
+        )
+        vector(
+            "load_in_airframe_axes",
+            6 * k,
+            self._calc_load_in_airframe_axes,
+            wrench | {self._airframe_pose.ticket()},
+        )
+        vector("gap", 12 * k, self._calc_gap_port, gap)
+        vector("energy", 1, self._calc_energy, gap)
+        vector("dissipated_power", 1, self._calc_dissipated_power, gap)
+
+    @abstractmethod
+    def _sources(self) -> set:
+        """Whatever the wrench depends on beside the gap, made where necessary."""
+
+    @abstractmethod
+    def _wrench_on_gear(self, context: Context, gap: Float64) -> Float64:
+        """(6 k,) wrench on the fittings, W, from the gap (k, 2, 6) and the sources."""
+
+    def _stored_energy(self, gap: Float64) -> float:
+        return 0.0
+
+    def _power_loss(self, gap: Float64) -> float:
+        return 0.0
+
+    def _calc_gap(self, context, value) -> None:
+        state = self._state.Eval(context)
+        pose = self._pose.Eval(context).reshape(self._k, 12)
+        R_WF = np.array([rotation_from_quaternion(state[q]) for q in self._quaternions])
+        R_WN = pose[:, :9].reshape(self._k, 3, 3)
+        gap = np.empty((self._k, 2, 6))
+        gap[:, 0, :3] = log(R_WF @ R_WN.swapaxes(1, 2))
+        gap[:, 0, 3:] = state[self._translations] - pose[:, 9:]
+        rate = state[self._state_rows] - self._velocity.Eval(context)
+        gap[:, 1] = rate.reshape(self._k, 6)
+        value.set_value(gap)
+
+    def _calc_wrench(self, context, value) -> None:
+        value.set_value(self._wrench_on_gear(context, self._gap.Eval(context)))
+
+    def _calc_on_airframe(self, context, output) -> None:
+        output.SetFromVector(-self._wrench.Eval(context))
+
+    def _calc_on_gear(self, context, output) -> None:
+        wrenches = self._wrench.Eval(context).reshape(self._k, 6)
+        output.set_value(spatial_forces(self._bodies, wrenches))
+
+    def _calc_load_in_airframe_axes(self, context, output) -> None:
+        R_WB = rotation_from_quaternion(self._airframe_pose.Eval(context)[:4])
+        in_B = -self._wrench.Eval(context).reshape(self._k, 2, 3) @ R_WB
+        output.SetFromVector(in_B[:, ::-1].ravel())
+
+    def _calc_gap_port(self, context, output) -> None:
+        output.SetFromVector(self._gap.Eval(context).ravel())
+
+    def _calc_energy(self, context, output) -> None:
+        output.SetAtIndex(0, self._stored_energy(self._gap.Eval(context)))
+
+    def _calc_dissipated_power(self, context, output) -> None:
+        output.SetAtIndex(0, self._power_loss(self._gap.Eval(context)))
+
+
+class RigidAttachment(Attachment):
+    """Holds the fittings at the nodes without any play; ports of `Attachment`.
+
+    Energy and dissipated power are zero: an ideal constraint does no work.
+
+    Args:
+        plant, fittings: see `Attachment`.
+        alpha, beta: Baumgarte's rates, 1/s; drift decays within a few 1/60 s.
+    """
+
+    def __init__(
+        self,
+        plant: MultibodyPlant,
+        fittings: Sequence[RigidBody],
+        alpha: float = 60.0,
+        beta: float = 60.0,
+    ) -> None:
+        self._alpha, self._beta = alpha, beta
+        self._world = plant.world_frame()
+        self._zero = np.zeros(plant.num_velocities())
+        super().__init__(plant, fittings)
+
+    def _sources(self) -> set:
+        self._context: Any = self.DeclareCacheEntry(
+            "plant_context",
+            ValueProducer(
+                allocate=lambda: Value(self._plant.CreateDefaultContext()),
+                calc=self._calc_context,
+            ),
+            {self._state.ticket()},
+        )
+        return {
+            self._context,
+            self._spatial,
+            self._generalized,
+            self._acceleration,
+            self._compliance,
+        }
+
+    def _calc_context(self, context, value) -> None:
+        state = self._state.Eval(context)
+        self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
+
+    def _free_force(self, context, plant_context) -> Float64:
+        """(nv,) generalised force M v'_free of everything but the attachments."""
+        plant = self._plant
+        forces = MultibodyForces(plant)
+        plant.CalcForceElementsContribution(plant_context, forces)
+        forces.mutable_generalized_forces()[:] += self._generalized.Eval(context)
+        for force in self._spatial.Eval(context):
+            plant.get_body(force.body_index).AddInForce(
+                plant_context, force.p_BoBq_B, force.F_Bq_W, self._world, forces
+            )
+        return -plant.CalcInverseDynamics(plant_context, self._zero, forces)
+
+    def _wrench_on_gear(self, context: Context, gap: Float64) -> Float64:
+        plant_context = self._context.Eval(context)
+        rows = self._rows
+        size = len(rows)
+        # The velocities of a fitting on its floating joint are its spatial velocity in
+        # W: J picks rows, and no velocity-dependent acceleration arises.
+        right = np.zeros((len(self._zero), size + 1))
+        right[rows, np.arange(size)] = 1.0
+        right[:, size] = self._free_force(context, plant_context)
+        mass = self._plant.CalcMassMatrix(plant_context)
+        response = np.linalg.solve(mass, right)[rows]
+        matrix = response[:, :size] + self._compliance.Eval(context).reshape(size, size)
+        stabilised = 2.0 * self._alpha * gap[:, 1] + self._beta**2 * gap[:, 0]
+        wanted = self._acceleration.Eval(context) - response[:, size]
+        return np.linalg.solve(matrix, wanted - stabilised.ravel())
+
+
+def _starts(fittings: Sequence[RigidBody]) -> list[int]:
+    return [body.floating_positions_start() for body in fittings]

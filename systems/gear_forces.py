@@ -1,0 +1,98 @@
+"""All forces on the landing gears but those of the attachments, gathered once.
+
+The plant and the attachment both need every one of them: a force that reached the plant
+alone would not be felt by the attachment load. One system with one pair of outputs,
+wired to both, makes that impossible.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from pydrake.common.value import Value
+from pydrake.multibody.math import SpatialForce
+from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlant
+from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint, RigidBody
+from pydrake.systems.framework import LeafSystem
+
+
+class GearForces(LeafSystem):
+    """Tyre wrenches, strut forces and brake torques in the plant's own form.
+
+    | port | size | unit | |
+    |---|---|---|---|
+    | in `tire_<wheel>` | 6 | N m, N | [torque; force] on the wheel at its centre, W |
+    | in `strut_<gear>` | 1 | N | along the strut, positive apart |
+    | in `brake_<wheel>` (for braked wheels) | 1 | N m | torque on the wheel about its
+      joint axis; the opposite torque acts on the axle |
+    | out `spatial_forces` | abstract | | list of ExternallyAppliedSpatialForce |
+    | out `generalized_force` | nv | N, N m | strut forces and brake torques |
+
+    Args:
+        plant: finalised.
+        wheels: name to wheel body.
+        struts: name to strut joint, whose translation is the stroke.
+        brakes: name to spin joint of each braked wheel.
+    """
+
+    def __init__(
+        self,
+        plant: MultibodyPlant,
+        wheels: Mapping[str, RigidBody],
+        struts: Mapping[str, PrismaticJoint],
+        brakes: Mapping[str, RevoluteJoint] | None = None,
+    ) -> None:
+        super().__init__()
+        brakes = brakes or {}
+        self._nv = plant.num_velocities()
+        self._bodies = tuple(wheel.index() for wheel in wheels.values())
+        self._tires = self._inputs("tire", wheels, 6)
+        self._joints = self._inputs("strut", struts, 1) + self._inputs(
+            "brake", brakes, 1
+        )
+        joints = [*struts.values(), *brakes.values()]
+        self._rows = [joint.velocity_start() for joint in joints]
+        self._signs = np.repeat([-1.0, 1.0], [len(struts), len(brakes)])
+        self.DeclareAbstractOutputPort(
+            "spatial_forces",
+            lambda: Value([ExternallyAppliedSpatialForce()]),
+            self._calc_spatial_forces,
+            {port.ticket() for port in self._tires},
+        )
+        self.DeclareVectorOutputPort(
+            "generalized_force",
+            self._nv,
+            self._calc_generalized_force,
+            {port.ticket() for port in self._joints} or {self.nothing_ticket()},
+        )
+
+    def _inputs(self, kind: str, names: Mapping, size: int) -> tuple:
+        declare = self.DeclareVectorInputPort
+        return tuple(declare(f"{kind}_{name}", size) for name in names)
+
+    def _calc_spatial_forces(self, context, output) -> None:
+        wrenches = [port.Eval(context) for port in self._tires]
+        output.set_value(spatial_forces(self._bodies, wrenches))
+
+    def _calc_generalized_force(self, context, output) -> None:
+        out = np.zeros(self._nv)
+        forces = [port.Eval(context)[0] for port in self._joints]
+        out[self._rows] = self._signs * forces
+        output.SetFromVector(out)
+
+
+def spatial_forces(
+    bodies: Sequence, wrenches: Sequence
+) -> list[ExternallyAppliedSpatialForce]:
+    """Forces at body origins as the plant takes them.
+
+    Args:
+        bodies: BodyIndex of each.
+        wrenches: [torque, N m; force, N] (6,) of each, in W.
+    """
+    forces = []
+    for body, wrench in zip(bodies, wrenches):
+        force = ExternallyAppliedSpatialForce()
+        force.body_index = body
+        force.F_Bq_W = SpatialForce(wrench)
+        forces.append(force)
+    return forces
