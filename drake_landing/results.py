@@ -1,0 +1,149 @@
+"""Result files: `results.h5` and the CSV tables, each written aside and then renamed.
+
+Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
+
+    /attachment_loads   time, node_id, load (t, k, 6) as given to the full model, basic
+    /multibody/<kind>/<name>   time and value (t, c) with attributes columns, units;
+                        kinds: attachment, tyre, strut, monitoring, motion, energy
+    /multibody/modal_amplitudes (t, n)
+    /fe/monitoring/<point>   as above, direct transient
+    /airframe           frequency_hz, mass, cg, node_id
+    /comparison, /gears   one dataset per column of the CSV tables
+"""
+
+import importlib.metadata
+import platform
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pandas as pd
+
+from drake_landing.handover import AttachmentLoads
+from drake_landing.history import UNITS, LandingHistory
+from systems.modal_body import ModalBody
+
+_PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
+
+
+def versions() -> dict[str, str]:
+    """Of the program and what its figures depend on."""
+    found = {name: importlib.metadata.version(name) for name in _PACKAGES}
+    return {**found, "python": platform.python_version()}
+
+
+def write_aside(path: Path, write: Callable[[Path], None]) -> None:
+    """Calls `write` with a temporary name in the same folder, then renames.
+
+    A reader never meets a half-written file, and an interrupted run leaves the old one.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    temporary = path.with_name(f".{path.name}.part")
+    try:
+        write(temporary)
+        temporary.replace(path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:
+    """Nine significant digits; NaN is an empty cell."""
+    write_aside(path, lambda to: table.to_csv(to, index=index, float_format="%.9g"))
+
+
+def write_history_csv(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
+    """Several tables over the same time, side by side: columns `<name>_<column>`."""
+    joined = pd.concat(
+        [t.add_prefix(f"{name}_") for name, t in tables.items()], axis="columns"
+    )
+    write_csv(path, joined.rename_axis("time"), index=True)
+
+
+def write_results(
+    path: Path,
+    *,
+    case: str,
+    body: ModalBody,
+    history: LandingHistory,
+    loads: AttachmentLoads,
+    response: Mapping[str, pd.DataFrame],
+    comparison: pd.DataFrame,
+    gears: pd.DataFrame,
+) -> None:
+    """Writes `results.h5`.
+
+    Args:
+        path: of the file.
+        case: YAML of the case, defaults written out.
+        body: the modal body of the run.
+        history: the multibody run.
+        loads: on the grid of the transient.
+        response: acceleration of the monitoring points in the direct transient.
+        comparison, gears: the tables of the same names.
+    """
+
+    def write(to: Path) -> None:
+        with h5py.File(to, "w") as file:
+            file.attrs["case"] = case
+            for name, version in versions().items():
+                file.require_group("versions").attrs[name] = version
+            _write_loads(file.create_group("attachment_loads"), loads)
+            _write_history(file.create_group("multibody"), history)
+            for point, table in response.items():
+                _write_series(file, f"fe/monitoring/{point}", table)
+            _write_airframe(file.create_group("airframe"), body)
+            _write_table(file.create_group("comparison"), comparison)
+            _write_table(file.create_group("gears"), gears)
+
+    write_aside(path, write)
+
+
+def _write_loads(group: h5py.Group, loads: AttachmentLoads) -> None:
+    group["time"], group["node_id"], group["load"] = (
+        loads.time,
+        loads.node_id,
+        loads.load,
+    )
+    group["load"].attrs["columns"] = ["fx", "fy", "fz", "mx", "my", "mz"]
+    group["load"].attrs["units"] = ["N"] * 3 + ["N m"] * 3
+
+
+def _write_history(group: h5py.Group, history: LandingHistory) -> None:
+    kinds = {
+        "attachment": history.attachment,
+        "tyre": history.tyre,
+        "strut": history.strut,
+        "monitoring": history.monitoring,
+    }
+    for kind, tables in kinds.items():
+        for name, table in tables.items():
+            _write_series(group, f"{kind}/{name}", table)
+    _write_series(group, "motion", history.motion)
+    _write_series(group, "energy", history.energy)
+    group["modal_amplitudes"] = history.amplitudes
+
+
+def _write_series(group: h5py.Group, name: str, table: pd.DataFrame) -> None:
+    at = group.create_group(name)
+    at["time"] = table.index.to_numpy()
+    at["value"] = table.to_numpy()
+    at["value"].attrs["columns"] = [str(c) for c in table.columns]
+    at["value"].attrs["units"] = [UNITS.get(str(c), "") for c in table.columns]
+
+
+def _write_airframe(group: h5py.Group, body: ModalBody) -> None:
+    group["frequency_hz"] = body.frequency
+    group["modal_mass"] = body.modal_mass
+    group["modal_damping"] = body.modal_damping
+    group["mass"], group["cg"] = body.mass, body.p_BG
+    group["inertia"] = body.inertia_G
+    group["node_id"] = body.node_id
+
+
+def _write_table(group: h5py.Group, table: pd.DataFrame) -> None:
+    for column in table.columns:
+        values = table[column].to_numpy()
+        if values.dtype == object:
+            values = np.array([str(v) for v in values], dtype=h5py.string_dtype())
+        group[str(column)] = values
