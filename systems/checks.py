@@ -35,8 +35,5 @@ def require(
         or (at_most is not None and not value <= at_most)
     ):
         expected = " and ".join(bounds) or "a finite number"
-        raise ValueError(
-            f"{owner}: {name} is {value!r} {unit}, expected {expected}".replace(
-                "  ", " "
-            )
-        )
+        found = f"{value!r} {unit}".rstrip()
+        raise ValueError(f"{owner}: {name} is {found}, expected {expected}")
