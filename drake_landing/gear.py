@@ -166,8 +166,11 @@ class ShockAbsorber(_Data):
         default=3e7, description="beyond the stroke, N/m, > 0"
     )
     extension_stop_stiffness: Positive = Field(default=5e7, description="N/m, > 0")
-    stop_damping: NotNegative = Field(
-        default=0.5, description="damping over elastic force of the stops, s/m"
+    stop_damping: float = Field(
+        default=0.5,
+        ge=0,
+        le=10,
+        description="of the stops: damping over elastic force and rate, s/m",
     )
     seal_friction: float = Field(
         default=0.0, ge=0, le=1, description="friction force over gas force"

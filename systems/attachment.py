@@ -77,9 +77,9 @@ class Attachment(LeafSystem):
         self._rows = np.add.outer(v, np.arange(6)).ravel()
         self._state_rows = nq + self._rows
 
-        vector = self.DeclareVectorInputPort
+        vector: Any = self.DeclareVectorInputPort
         self._state = vector("plant_state", plant.num_multibody_states())
-        self._spatial = self.DeclareAbstractInputPort(
+        self._spatial: Any = self.DeclareAbstractInputPort(
             "spatial_forces", Value([ExternallyAppliedSpatialForce()])
         )
         self._generalized = vector("generalized_force", plant.num_velocities())

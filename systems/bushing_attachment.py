@@ -21,8 +21,8 @@ class BushingAttachment(Attachment):
     """Linear springs and dampers between fitting and node; ports of `Attachment`.
 
     The wrench on the fitting is -(k g + d g'), with g the gap in W. The inputs of the
-    forces on the gears and of the nodes' accelerations are there but not used. Stiffness
-    is isotropic, so that it needs no axes.
+    forces on the gears and of the nodes' accelerations are there but not used.
+    Stiffness is isotropic, so that it needs no axes.
 
     Args:
         plant, fittings: see `Attachment`.

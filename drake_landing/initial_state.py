@@ -1,0 +1,106 @@
+"""Initial state of a landing: steady flight, the lowest tyre just off the ground."""
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+from pydrake.math import RigidTransform, RotationMatrix
+from pydrake.multibody.math import SpatialVelocity
+from pydrake.systems.framework import Context
+
+from drake_landing.diagram import LandingDiagram
+from systems.rotations import exp, quaternion_from_rotation
+
+Float64 = npt.NDArray[np.float64]
+
+
+def attitude(roll: float, pitch: float, yaw: float) -> Float64:
+    """(3, 3) R_WB of an aircraft that flies toward -x at zero angles.
+
+    Args:
+        roll: starboard wing down, rad.
+        pitch: nose up, rad.
+        yaw: nose to starboard, rad; the first of the rotations, then pitch, then roll.
+    """
+    turns = exp(np.array([[0.0, 0.0, -yaw], [0.0, pitch, 0.0], [-roll, 0.0, 0.0]]))
+    return turns[0] @ turns[1] @ turns[2]
+
+
+def angular_velocity(roll_rate: float, pitch_rate: float, yaw_rate: float) -> Float64:
+    """(3,) ω_B from the rates about the axes of the aircraft, rad/s, signs as above."""
+    return np.array([-roll_rate, pitch_rate, -yaw_rate])
+
+
+def set_initial_state(
+    landing: LandingDiagram,
+    context: Context,
+    *,
+    v_WG: npt.ArrayLike,
+    R_WB: npt.ArrayLike | None = None,
+    w_B: npt.ArrayLike = (0.0, 0.0, 0.0),
+    xy: npt.ArrayLike = (0.0, 0.0),
+    clearance: float = 1e-3,
+) -> None:
+    """Undeformed airframe, extended struts, wheels that do not turn.
+
+    The state of gears and airframe is consistent: fittings sit at their nodes and move
+    with them. States of tyres and of the energy budget are set to their defaults.
+
+    Args:
+        landing: the diagram and its parts.
+        context: of the diagram.
+        v_WG: (3,) velocity of the airframe's centre of gravity in W, m/s.
+        R_WB: (3, 3) attitude; default level, flying toward -x.
+        w_B: (3,) angular velocity in B, rad/s.
+        xy: (2,) airframe's centre of gravity over ground, W, m.
+        clearance: of the lowest tyre over the runway, m.
+
+    Raises:
+        ValueError: clearance is negative, or a wheel lies on its side.
+    """
+    if not clearance >= 0:
+        raise ValueError(f"clearance is {clearance} m, expected >= 0")
+    rotation = np.eye(3) if R_WB is None else np.asarray(R_WB, dtype=float)
+    quaternion = quaternion_from_rotation(rotation)
+    landing.diagram.SetDefaultContext(context)
+    airframe = landing.airframe.GetMyMutableContextFromRoot(context)
+    x, y = np.asarray(xy, dtype=float)
+
+    def place(z: float) -> None:
+        landing.airframe.set_state(
+            airframe, p_WG=[x, y, z], quaternion=quaternion, v_WG=v_WG, w_B=w_B
+        )
+        _place_gears(landing, context)
+
+    place(0.0)
+    place(clearance - _lowest_tyre(landing, context))
+
+
+def _place_gears(landing: LandingDiagram, context: Context) -> None:
+    airframe = landing.airframe.GetMyContextFromRoot(context)
+    plant, of_plant = landing.plant, landing.plant.GetMyMutableContextFromRoot(context)
+    poses = landing.airframe.GetOutputPort("node_pose").Eval(airframe)
+    velocities = landing.airframe.GetOutputPort("node_velocity").Eval(airframe)
+    for bodies, pose, velocity in zip(
+        landing.bodies.values(), poses.reshape(-1, 12), velocities.reshape(-1, 6)
+    ):
+        R_WF = RotationMatrix(pose[:9].reshape(3, 3))
+        V_WF = SpatialVelocity(velocity[:3], velocity[3:])
+        plant.SetFreeBodyPose(of_plant, bodies.fitting, RigidTransform(R_WF, pose[9:]))
+        plant.SetFreeBodySpatialVelocity(of_plant, bodies.fitting, V_WF)
+
+
+def _lowest_tyre(landing: LandingDiagram, context: Context) -> float:
+    """Height of the lowest tyre's lowest point over the runway below it, m.
+
+    Only that point: on a profile its clearance is vertical, not the nearest distance.
+    """
+    system = landing.wheel_kinematics
+    of_system = system.GetMyContextFromRoot(context)
+    heights = []
+    for name, tire in landing.tires.items():
+        wheel = system.GetOutputPort(f"wheel_{name}").Eval(of_system)
+        x, y, z, _, _, a_z = wheel[:6].tolist()
+        reach = tire.parameters.radius * math.sqrt(1.0 - a_z * a_z)
+        heights.append(z - reach - landing.runway.height(x, y))
+    return min(heights)

@@ -1,0 +1,53 @@
+"""Landing gears for the synthetic aircraft: one nose gear, two main gears, twins."""
+
+from drake_landing.gear import LandingGear
+from tests.systems.synthetic_body import LEFT_GEAR, NOSE_GEAR, RIGHT_GEAR
+
+_NOSE = {
+    "name": "nose",
+    "attachment_node": NOSE_GEAR,
+    "axle": (5.07, 0.0, -3.919),
+    "wheel_offsets": (-0.25, 0.25),
+    "fitting": {"mass": 140.0, "cg": (5.07, 0.0, -2.15), "inertia": (28, 28, 4)},
+    "piston": {"mass": 100.0, "cg": (5.07, 0.0, -3.35), "inertia": (16, 15, 3)},
+    "wheel": {"mass": 40.0, "spin_inertia": 2.5, "transverse_inertia": 1.6},
+    "tyre": {"radius": 0.381, "stiffness": 1.05e6, "damping": 1.5e3},
+    "shock_absorber": {
+        "stroke": 0.43,
+        "gas_length": 0.47,
+        "precharge_force": 12e3,
+        "compression_damping": 15e3,
+        "rebound_damping": 60e3,
+    },
+}
+
+
+def _main(name: str, node: int, side: float) -> dict:
+    y = side * 3.795
+    return {
+        "name": name,
+        "attachment_node": node,
+        "axle": (17.71, y, -3.716),
+        "wheel_offsets": (-0.465, 0.465),
+        "fitting": {"mass": 616.0, "cg": (17.51, y, -1.75), "inertia": (150, 150, 30)},
+        "piston": {"mass": 330.0, "cg": (17.71, y, -3.15), "inertia": (75, 68, 18)},
+        "wheel": {"mass": 210.0, "spin_inertia": 18.0, "transverse_inertia": 11.0},
+        "tyre": {"radius": 0.584, "stiffness": 2.0e6, "damping": 3.0e3},
+        "shock_absorber": {
+            "stroke": 0.47,
+            "gas_length": 0.52,
+            "precharge_force": 45e3,
+            "compression_damping": 45e3,
+            "rebound_damping": 180e3,
+        },
+    }
+
+
+def aircraft_gears() -> tuple[LandingGear, LandingGear, LandingGear]:
+    """Nose, left main and right main gear."""
+    data = (
+        _NOSE,
+        _main("main_left", LEFT_GEAR, -1.0),
+        _main("main_right", RIGHT_GEAR, 1.0),
+    )
+    return tuple(LandingGear.model_validate(gear) for gear in data)
