@@ -35,12 +35,12 @@ from systems.tire import Tire
 from systems.wheel_kinematics import WheelKinematics
 
 _LOGGED = {
-    "airframe": ("pose", "modal_amplitudes", "monitor_acceleration"),
+    "airframe": ("pose", "modal_amplitudes", "monitor_acceleration", "energy"),
     "attachment": ("load_in_airframe_axes", "gap"),
     "plant": ("state",),
     "energy_budget": ("total", "dissipated"),
-    "tire": ("contact", "wrench"),
-    "shock_absorber": ("force", "components"),
+    "tire": ("contact", "wrench", "energy"),
+    "shock_absorber": ("force", "components", "energy"),
 }
 
 
