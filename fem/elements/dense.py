@@ -1,0 +1,54 @@
+"""The common part of all element blocks: what an element type has not, it omits."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from fem.elements.block import Float64, Int64, Recovery
+
+
+@dataclass(frozen=True, kw_only=True)
+class DenseBlock:
+    """An `ElementBlock` without stiffness, mass or damping, to be extended.
+
+    Attributes:
+        card: Nastran's name.
+        id: (e,) element ids.
+        dof: (e, n) rows of the g-set, -1 grounded.
+        frame: axes of the element matrices, see `fem.elements.block`.
+    """
+
+    card: str
+    id: Int64
+    dof: Int64
+    frame: Literal["basic", "displacement"] = "basic"
+
+    def stiffness(self) -> Float64 | None:
+        """(e, n, n), None: this element type has no stiffness."""
+        return None
+
+    def structural_damping(self) -> Float64 | None:
+        """(e,) GE, None: no structural damping."""
+        return None
+
+    def mass(self, *, coupled: bool) -> Float64 | None:
+        """(e, n, n), None: this element type has no mass."""
+        return None
+
+    def damping(self) -> Float64 | None:
+        """(e, n, n), None: no viscous damping."""
+        return None
+
+    def forces(self) -> Recovery | None:
+        """None: no element forces."""
+        return None
+
+    def stresses(self) -> Recovery | None:
+        """None: no element stresses."""
+        return None
+
+
+def some(values: Float64) -> Float64 | None:
+    """The array, or None where all of it is zero."""
+    return values if np.any(values) else None
