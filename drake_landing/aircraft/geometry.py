@@ -13,6 +13,7 @@ import numpy.typing as npt
 from drake_landing.aircraft.facts import facts, table
 
 Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
 
 MIRROR = np.array([1.0, -1.0, 1.0])
 

@@ -12,7 +12,7 @@ import pandas as pd
 
 from drake_landing.aircraft.deck_writer import DeckText, Section, Value, case_set
 from drake_landing.aircraft.facts import facts
-from drake_landing.aircraft.geometry import Float64
+from drake_landing.aircraft.geometry import Float64, Int64
 from drake_landing.gear import LandingGear
 
 SETS = {1: "monitoring points", 2: "interface nodes", 3: "gear attachment nodes"}
@@ -38,14 +38,14 @@ class AircraftModel:
 
     level: str
     topology: str
-    deck: str
-    grid_id: Float64
-    position: Float64
+    deck: str = field(repr=False)
+    grid_id: Int64 = field(repr=False)
+    position: Float64 = field(repr=False)
     monitoring: Mapping[str, int]
     attachment: Mapping[str, int]
-    interface: tuple[int, ...]
-    parts: Mapping[str, tuple[int, ...]]
-    masses: pd.DataFrame
+    interface: tuple[int, ...] = field(repr=False)
+    parts: Mapping[str, tuple[int, ...]] = field(repr=False)
+    masses: pd.DataFrame = field(repr=False)
     gears: tuple[LandingGear, ...]
 
     @property

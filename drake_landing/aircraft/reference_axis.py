@@ -167,10 +167,11 @@ def _movables() -> Iterator[NodeGroup]:
 def movable_shares(name: str) -> tuple[Float64, tuple[int, ...]]:
     """Nodes of a movable as shares of its span, and which of them are supported.
 
-    Evenly spaced; the node nearest to a track or hinge stands on it.
+    Evenly spaced, off the ends, where neighbours meet; the node nearest to a track or
+    hinge stands on it.
     """
     data = facts("movables")[name]
-    shares = np.linspace(0.0, 1.0, data["nodes"])
+    shares = np.linspace(0.02, 0.98, data["nodes"])
     supported = []
     for support in data["supports"]:
         k = int(np.argmin(np.abs(shares - support)))
