@@ -1,0 +1,1 @@
+"""From the fields of single cards to rows of the card tables."""

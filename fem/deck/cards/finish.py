@@ -1,0 +1,157 @@
+"""Last touches on the columns of regular cards: fields of two meanings, spellings.
+
+Each function takes the columns of one card name and changes them in place; what is
+wrong is appended to `problems`.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from fem.deck.values import Malformed, real
+
+Columns = dict[str, list]
+Problems = list[str]
+
+_LOAD_TYPES = {
+    **dict.fromkeys(("0", "L", "LO", "LOA", "LOAD"), "LOAD"),
+    **dict.fromkeys(("1", "D", "DI", "DIS", "DISP"), "DISP"),
+    **dict.fromkeys(("2", "V", "VE", "VEL", "VELO"), "VELO"),
+    **dict.fromkeys(("3", "A", "AC", "ACC", "ACCE"), "ACCE"),
+}
+
+
+def _place(columns: Columns, row: int) -> str:
+    return f"{columns['file'][row]}:{columns['line'][row]}"
+
+
+def _orientation(columns: Columns, problems: Problems) -> None:
+    """X1 is a grid where it is an integer (CBAR, CBEAM, CBUSH)."""
+    x1 = columns["x1"]
+    columns["g0"] = [x if isinstance(x, int) else 0 for x in x1]
+    columns["x1"] = [float("nan") if isinstance(x, int) else x for x in x1]
+    for x2 in ("x2", "x3"):  # a vector's blank components are zero
+        columns[x2] = [
+            0.0 if b != b and a == a else b for a, b in zip(columns["x1"], columns[x2])
+        ]
+
+
+def _beam(columns: Columns, problems: Problems) -> None:
+    """OFFT is a name; a number there is BIT, which belongs to p-elements."""
+    _orientation(columns, problems)
+    for row, offt in enumerate(columns["offt"]):
+        try:
+            real(offt)
+        except Malformed:
+            if len(offt) == 3 and not set(offt) - set("GOEB"):
+                continue
+        problems.append(
+            f"{_place(columns, row)}: element {columns['eid'][row]} field OFFT: found "
+            f"'{offt}', expected GGG, GGO, GOG, GOO or another of three letters"
+        )
+
+
+def _shell(columns: Columns, problems: Problems) -> None:
+    """THETA is a coordinate system where it is an integer."""
+    theta = columns["theta"]
+    columns["mcid"] = [t if isinstance(t, int) else -1 for t in theta]
+    columns["theta"] = [0.0 if isinstance(t, int) else t for t in theta]
+
+
+def _tload(columns: Columns, problems: Problems) -> None:
+    delay = columns["delay"]
+    columns["delayid"] = [d if isinstance(d, int) else 0 for d in delay]
+    columns["delay"] = [0.0 if isinstance(d, int) else d for d in delay]
+    _named_type(columns, problems)
+
+
+def _tload1(columns: Columns, problems: Problems) -> None:
+    _tload(columns, problems)
+    for row, tid in enumerate(columns["tid"]):
+        if not isinstance(tid, int):
+            problems.append(
+                f"{_place(columns, row)}: TLOAD1 field TID: found {tid}, expected the "
+                "id of a TABLED1"
+            )
+    columns["tid"] = [t if isinstance(t, int) else 0 for t in columns["tid"]]
+
+
+def _named_type(columns: Columns, problems: Problems) -> None:
+    types = columns["type"]
+    for row, name in enumerate(types):
+        if name not in _LOAD_TYPES:
+            problems.append(
+                f"{_place(columns, row)}: field TYPE: found '{name}', expected LOAD, "
+                "DISP, VELO or ACCE"
+            )
+    columns["type"] = [_LOAD_TYPES.get(name, "LOAD") for name in types]
+
+
+def _scalar(columns: Columns, problems: Problems) -> None:
+    """CELAS3 and its like connect scalar points: component 0."""
+    count = len(columns["eid"])
+    columns["c1"], columns["c2"] = [0] * count, [0] * count
+
+
+def _celas4(columns: Columns, problems: Problems) -> None:
+    _scalar(columns, problems)
+    count = len(columns["eid"])
+    columns["ge"], columns["s"] = [0.0] * count, [0.0] * count
+
+
+def _crod(columns: Columns, problems: Problems) -> None:
+    count = len(columns["eid"])
+    columns.update(
+        mid=[0] * count, **{k: [0.0] * count for k in ("a", "j", "c", "nsm")}
+    )
+
+
+def _conrod(columns: Columns, problems: Problems) -> None:
+    columns["pid"] = [0] * len(columns["eid"])
+
+
+def _ptube(columns: Columns, problems: Problems) -> None:
+    columns["t"] = [
+        t if t == t and t else d / 2 for t, d in _pairs(columns, "t", "od1")
+    ]
+
+
+def _pairs(columns: Columns, a: str, b: str) -> list[tuple[Any, Any]]:
+    return list(zip(columns[a], columns[b]))
+
+
+def _eigr(columns: Columns, problems: Problems) -> None:
+    """EIGR asks for the same modes as EIGRL; the method is ours to choose."""
+    count = len(columns["sid"])
+    columns.update(v1=columns.pop("f1"), v2=columns.pop("f2"))
+    columns.update(msglvl=[0] * count, maxset=[0] * count, shfscl=[0.0] * count)
+
+
+def _pbar(columns: Columns, problems: Problems) -> None:
+    for row, (i1, i2) in enumerate(_pairs(columns, "i1", "i2")):
+        if min(i1, i2, columns["a"][row], columns["j"][row]) < 0.0:
+            problems.append(
+                f"{_place(columns, row)}: PBAR {columns['pid'][row]}: A, I1, I2 and J "
+                "must not be negative"
+            )
+
+
+FINISHERS: dict[str, Callable[[Columns, Problems], None]] = {
+    "CBAR": _beam,
+    "CBEAM": _beam,
+    "CBUSH": _orientation,
+    "CQUAD4": _shell,
+    "CTRIA3": _shell,
+    "TLOAD1": _tload1,
+    "TLOAD2": _tload,
+    "CELAS3": _scalar,
+    "CDAMP3": _scalar,
+    "CMASS3": _scalar,
+    "CELAS4": _celas4,
+    "CDAMP4": _scalar,
+    "CMASS4": _scalar,
+    "CROD": _crod,
+    "CONROD": _conrod,
+    "PTUBE": _ptube,
+    "PBAR": _pbar,
+    "EIGR": _eigr,
+}

@@ -1,0 +1,191 @@
+"""Cards that hold lists: sets of ids, element nodes, combinations, time steps.
+
+Each function takes the fields of one card and returns its rows, columns by name.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from fem.deck.fields import Fields
+from fem.deck.values import Malformed
+
+Row = dict[str, Any]
+Rows = list[Row]
+
+
+def _spoint(f: Fields) -> Rows:
+    written, between = f.ids(1, "ID")
+    return [{"id": i} for i in (*written, *between)]
+
+
+def _spc1(f: Fields) -> Rows:
+    sid, c = f.integer(1, "SID"), f.components(2, "C", "0")
+    written, between = f.ids(3, "G")
+    rows = [{"sid": sid, "g": g, "c": c, "d": 0.0, "thru": False} for g in written]
+    # Points that a range merely skips over need not exist.
+    rows += [{"sid": sid, "g": g, "c": c, "d": 0.0, "thru": True} for g in between]
+    return rows
+
+
+def _set1(f: Fields) -> Rows:
+    """ASET1 and QSET1."""
+    c = f.components(1, "C", "0")
+    written, between = f.ids(2, "ID")
+    rows = [{"id": i, "c": c, "thru": False} for i in written]
+    return rows + [{"id": i, "c": c, "thru": True} for i in between]
+
+
+def _add(f: Fields) -> Rows:
+    """SPCADD, MPCADD, NSMADD."""
+    written, between = f.ids(2, "S1")
+    return [{"sid": f.integer(1, "SID"), "sets": (*written, *between)}]
+
+
+def _load(f: Fields) -> Rows:
+    """LOAD and DLOAD."""
+    pairs = [(f.real(k, "SCALE"), f.integer(k + 1, "LID")) for k in f.groups(3, 2)]
+    if not pairs:
+        raise Malformed("field L1 is blank, expected an integer")
+    scales, lids = zip(*pairs)
+    row = {"sid": f.integer(1, "SID"), "s": f.real(2, "S", 1.0)}
+    return [{**row, "scales": scales, "lids": lids}]
+
+
+def _solid(f: Fields, most: int, corners: int) -> Rows:
+    """CHEXA, CPENTA, CTETRA, CPYRAM."""
+    if any(f.card.fields[3 + most :]):
+        raise Malformed(f"more than {most} grids")
+    nodes = np.array(
+        [f.integer(3 + k, f"G{k + 1}", 0) for k in range(most)], dtype=np.int64
+    )
+    if (nodes[:corners] <= 0).any():
+        raise Malformed(f"expected {corners} corner grids")
+    if not nodes[corners:].any():
+        nodes = nodes[:corners]
+    eid = f.integer(1, "EID")
+    return [{"eid": eid, "pid": f.integer(2, "PID", eid), "nodes": nodes}]
+
+
+def _symmetric(f: Fields, start: int, name: str, *, lower: bool) -> np.ndarray:
+    """(6, 6) symmetric matrix of 21 fields, row by row of one triangle."""
+    triangle = np.tril_indices(6) if lower else np.triu_indices(6)
+    matrix = np.zeros((6, 6))
+    matrix[triangle] = f.reals(start, 21, name, 0.0)
+    return matrix + matrix.T - np.diag(np.diag(matrix))
+
+
+def _conm1(f: Fields) -> Rows:
+    row = {"eid": f.integer(1, "EID"), "g": f.integer(2, "G")}
+    row["cid"] = f.integer(3, "CID", 0)
+    return [{**row, "ms": _symmetric(f, 4, "M", lower=True)}]
+
+
+def _mat9(f: Fields) -> Rows:
+    row: Row = {"mid": f.integer(1, "MID")}
+    row["gs"] = _symmetric(f, 2, "G", lower=False)
+    return [{**row, "rho": f.real(23, "RHO", 0.0), "ge": f.real(31, "GE", 0.0)}]
+
+
+def _rbe2(f: Fields) -> Rows:
+    texts = [text for text in f.card.fields[4:] if text]
+    # ALPHA and TREF may follow the grids; they act with temperatures only.
+    while texts and "." in texts[-1]:
+        texts.pop()
+    grids = Fields(type(f.card)(["RBE2", *texts], f.card.file, f.card.line))
+    written, between = grids.ids(1, "GM1")
+    row = {"eid": f.integer(1, "EID"), "gn": f.integer(2, "GN")}
+    row["cm"] = f.components(3, "CM")
+    return [{**row, "gms": np.array(sorted({*written, *between}), dtype=np.int64)}]
+
+
+def _mpc(f: Fields) -> Rows:
+    terms = []
+    for row in range(1, len(f), 8):
+        for k in (row + 1, row + 4):
+            if any(f.card.fields[k : k + 3]):
+                number = len(terms) + 1
+                c = f.components(k + 1, f"C{number}", "0")
+                if len(c) > 1:
+                    raise Malformed(f"field C{number}: found '{c}', expected one digit")
+                g = f.integer(k, f"G{number}")
+                terms.append((g, int(c), f.real(k + 2, f"A{number}", 0.0)))
+    if not terms or terms[0][2] == 0.0:
+        raise Malformed("field A1: expected a number that is not 0")
+    grids, comps, coefficients = (np.array(column) for column in zip(*terms))
+    row = {"sid": f.integer(1, "SID"), "grids": grids, "comps": comps}
+    return [{**row, "coefficients": coefficients}]
+
+
+def _pload2(f: Fields) -> Rows:
+    written, between = f.ids(3, "EID1")
+    eids = np.array(sorted({*written, *between}), dtype=np.int64)
+    return [{"sid": f.integer(1, "SID"), "p": f.real(2, "P"), "eids": eids}]
+
+
+def _pload4(f: Fields) -> Rows:
+    p1 = f.real(3, "P1", 0.0)
+    row: Row = {"sid": f.integer(1, "SID"), "p1": p1, "g1": 0, "g34": 0}
+    row.update({f"p{k}": f.real(2 + k, f"P{k}", p1) for k in (2, 3, 4)})
+    eids = [f.integer(2, "EID")]
+    if f.text(7) == "THRU":
+        eids = list(range(eids[0], f.integer(8, "EID2") + 1))
+        if not eids:
+            raise Malformed("field EID2: expected an ascending range")
+    else:
+        row["g1"], row["g34"] = f.integer(7, "G1", 0), f.integer(8, "G34", 0)
+    row["cid"] = f.integer(9, "CID", 0)
+    row.update({f"n{k}": f.real(9 + k, f"N{k}", 0.0) for k in (1, 2, 3)})
+    row["sorl"], row["ldir"] = f.word(13, "SORL", "SURF"), f.word(14, "LDIR", "NORM")
+    return [{**row, "eids": np.array(eids, dtype=np.int64)}]
+
+
+def _accel1(f: Fields) -> Rows:
+    row: Row = {"sid": f.integer(1, "SID"), "cid": f.integer(2, "CID", 0)}
+    row["a"] = f.real(3, "A")
+    row.update({f"n{k}": f.real(3 + k, f"N{k}", 0.0) for k in (1, 2, 3)})
+    written, between = f.ids(9, "GRIDID")
+    return [{**row, "grids": np.array(sorted({*written, *between}), dtype=np.int64)}]
+
+
+def _tstep(f: Fields) -> Rows:
+    steps = []
+    for k in f.groups(2, 3, row=8):
+        count, step = f.integer(k, "N"), f.real(k + 1, "DT")
+        output = f.integer(k + 2, "NO", 1)
+        if count < 1 or not step > 0.0 or output < 1:
+            raise Malformed(
+                f"found N {count}, DT {step}, NO {output}, expected positive numbers"
+            )
+        steps.append((count, step, output))
+    if not steps:
+        raise Malformed("field N1 is blank, expected an integer")
+    counts, sizes, outputs = zip(*steps)
+    row = {"sid": f.integer(1, "SID"), "counts": counts}
+    return [{**row, "steps": sizes, "outputs": outputs}]
+
+
+READERS: dict[str, Callable[[Fields], Rows]] = {
+    "SPOINT": _spoint,
+    "SPC1": _spc1,
+    "ASET1": _set1,
+    "QSET1": _set1,
+    "SPCADD": _add,
+    "MPCADD": _add,
+    "NSMADD": _add,
+    "LOAD": _load,
+    "DLOAD": _load,
+    "CHEXA": lambda f: _solid(f, 20, 8),
+    "CPENTA": lambda f: _solid(f, 15, 6),
+    "CTETRA": lambda f: _solid(f, 10, 4),
+    "CPYRAM": lambda f: _solid(f, 13, 5),
+    "CONM1": _conm1,
+    "MAT9": _mat9,
+    "RBE2": _rbe2,
+    "MPC": _mpc,
+    "PLOAD2": _pload2,
+    "PLOAD4": _pload4,
+    "ACCEL1": _accel1,
+    "TSTEP": _tstep,
+}

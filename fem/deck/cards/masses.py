@@ -1,0 +1,63 @@
+"""Non-structural mass sets: NSM, NSM1 (per length or area), NSML, NSML1 (lumped)."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from fem.deck.fields import Fields
+from fem.deck.values import Malformed
+
+Rows = list[dict[str, Any]]
+
+ALL = -1  # stands for all ids of the type
+
+
+def _pairs(f: Fields) -> tuple[np.ndarray, np.ndarray]:
+    """(id, value) pairs of NSM and NSML."""
+    pairs = [(f.integer(k, "ID"), f.real(k + 1, "VALUE")) for k in f.groups(3, 2)]
+    if not pairs:
+        raise Malformed("field ID is blank, expected an integer")
+    ids, values = zip(*pairs)
+    return np.array(ids, dtype=np.int64), np.array(values)
+
+
+def _ids(f: Fields) -> np.ndarray:
+    """Ids of NSM1 and NSML1."""
+    if f.text(4) == "ALL":
+        return np.array([ALL])
+    written, between = f.ids(4, "ID")
+    return np.array(sorted({*written, *between}), dtype=np.int64)
+
+
+def _nsm(f: Fields) -> Rows:
+    ids, values = _pairs(f)
+    row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
+    return [{**row, "ids": ids, "values": values}]
+
+
+def _nsm1(f: Fields) -> Rows:
+    ids, value = _ids(f), f.real(3, "VALUE")
+    row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
+    return [{**row, "ids": ids, "values": np.full(len(ids), value)}]
+
+
+def _nsml(f: Fields) -> Rows:
+    ids, values = _pairs(f)
+    row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
+    return [
+        {**row, "ids": np.array([i]), "value": float(v)} for i, v in zip(ids, values)
+    ]
+
+
+def _nsml1(f: Fields) -> Rows:
+    row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
+    return [{**row, "ids": _ids(f), "value": f.real(3, "VALUE")}]
+
+
+READERS: dict[str, Callable[[Fields], Rows]] = {
+    "NSM": _nsm,
+    "NSM1": _nsm1,
+    "NSML": _nsml,
+    "NSML1": _nsml1,
+}

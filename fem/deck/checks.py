@@ -1,0 +1,268 @@
+"""Checks of a whole deck: references, duplicates, selected sets, coordinate systems."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from fem.coordinates import resolve
+from fem.deck import catalogue
+from fem.deck.deck import Deck
+from fem.deck.lexer import RawCard
+from fem.deck.values import Malformed, integer
+from fem.errors import InputError
+
+Int64 = npt.NDArray[np.int64]
+Tables = Mapping[str, pd.DataFrame]
+
+_MOST = 20  # problems of one kind that are listed
+
+
+def drop_ignored(
+    tables: Tables, ignored: Sequence[RawCard], notices: list[str]
+) -> dict[str, pd.DataFrame]:
+    """Tables without the loads on elements that the user wants ignored."""
+    eids = set()
+    for card in ignored:
+        try:
+            eids.add(integer(card.field(1)))
+        except Malformed:
+            continue
+    changed = {}
+    for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
+        table = tables[name]
+        known = _ids(tables, targets, "eid")
+        lost = np.array(sorted(eids - set(known.tolist())), dtype=np.int64)
+        if table.empty or not len(lost):
+            continue
+        keep = [not np.isin(value, lost).any() for value in table[column]]
+        if not all(keep):
+            changed[name] = table[keep].reset_index(drop=True)
+            notices.append(
+                f"{len(keep) - sum(keep)} {name} on ignored elements are left out"
+            )
+    return changed
+
+
+def check(deck: Deck, sol: int, notices: list[str]) -> list[str]:
+    """All problems of a deck whose single cards are well-formed."""
+    tables = deck.cards
+    problems = _no_points(deck) + _duplicates(deck, notices)
+    if problems:
+        return problems
+    problems += _grids(tables) + _properties(tables) + _materials(tables)
+    problems += _frames(tables) + _loaded(tables) + _sets(tables)
+    problems += _selected(deck, sol)
+    if not problems:
+        try:
+            resolve(tables["CORD"], tables["GRID"])
+        except InputError as error:
+            problems += error.problems
+    return problems
+
+
+def _no_points(deck: Deck) -> list[str]:
+    if deck.cards["GRID"].empty and deck.cards["SPOINT"].empty:
+        return [f"{deck.path}: the deck has no GRID and no SPOINT"]
+    return []
+
+
+def _duplicates(deck: Deck, notices: list[str]) -> list[str]:
+    problems: list[str] = []
+    cards = deck.cards
+    groups: list[tuple[str, tuple[str, ...]]] = [
+        ("id", ("GRID", "SPOINT")),
+        ("cid", ("CORD",)),
+        ("mid", ("MAT1", "MAT2", "MAT8", "MAT9")),
+        ("pid", ("PSHELL", "PCOMP")),
+        ("tid", ("TABLED1",)),
+        ("sid", ("TSTEP",)),
+        *(("eid", (name,)) for name in catalogue.ELEMENTS),
+        *(("pid", (f"P{name}",)) for name in _SINGLE_PROPERTIES),
+    ]
+    for column, names in groups:
+        table = pd.concat(
+            [cards[name][[column, "file", "line"]].assign(card=name) for name in names],
+            ignore_index=True,
+        )
+        again = table.duplicated(column, keep="first").to_numpy()
+        if not again.any():
+            continue
+        if len(names) == 1 or not cards["GRID"].empty:
+            again &= ~_identical(cards, column, names, table, notices)
+        for row in table[again].head(_MOST).itertuples():
+            problems.append(
+                f"{row.file}:{row.line}: {row.card} {getattr(row, column)} is defined "
+                "more than once"
+            )
+    return problems
+
+
+_SINGLE_PROPERTIES = "BAR BEAM ROD TUBE ELAS DAMP MASS VISC BUSH SHEAR SOLID".split()
+
+
+def _identical(
+    cards: dict[str, pd.DataFrame] | Tables,
+    column: str,
+    names: tuple[str, ...],
+    table: pd.DataFrame,
+    notices: list[str],
+) -> npt.NDArray[np.bool_]:
+    """Which repeated GRID and CORD cards say the same as the first; they are dropped."""
+    same = np.zeros(len(table), dtype=bool)
+    for name in names:
+        if name not in ("GRID", "CORD", "SPOINT"):
+            continue
+        of_card = (table["card"] == name).to_numpy()
+        whole = cards[name].drop(columns=["file", "line"])
+        repeated = whole.duplicated(keep="first").to_numpy()
+        same[of_card] = repeated
+        if repeated.any():
+            notices.append(f"{int(repeated.sum())} repeated {name} cards are alike")
+            assert isinstance(cards, dict)
+            cards[name] = cards[name][~repeated].reset_index(drop=True)
+    return same
+
+
+def _flat(values: pd.Series) -> tuple[Int64, Int64]:
+    """Integers of a column, lists unrolled, and the row of each."""
+    if values.dtype != object:
+        return values.to_numpy(np.int64), np.arange(len(values))
+    lengths = [np.size(value) for value in values]
+    parts = [np.ravel(value) for value in values]
+    flat = np.concatenate(parts) if parts else np.zeros(0)
+    return flat.astype(np.int64), np.repeat(np.arange(len(values)), lengths)
+
+
+def _ids(tables: Tables, names: Iterable[str], column: str) -> Int64:
+    return np.concatenate([tables[name][column].to_numpy(np.int64) for name in names])
+
+
+def _missing(
+    tables: Tables, name: str, column: str, known: Int64, what: str
+) -> list[str]:
+    """References (positive integers) of a column that are not among `known`."""
+    table = tables[name]
+    if table.empty:
+        return []
+    ids, rows = _flat(table[column])
+    bad = (ids > 0) & ~np.isin(ids, known)
+    if "thru" in table:
+        bad &= ~table["thru"].to_numpy()[rows]
+    found = list(dict.fromkeys(zip(rows[bad].tolist(), ids[bad].tolist())))
+    key = next(k for k in ("eid", "pid", "mid", "sid", "id", "name") if k in table)
+    problems = [
+        f"{table['file'][row]}:{table['line'][row]}: {name} {table[key][row]}: "
+        f"{what} {number} is not defined"
+        for row, number in found[:_MOST]
+    ]
+    if len(found) > _MOST:
+        problems.append(f"... and {len(found) - _MOST} more {name} of that kind")
+    return problems
+
+
+def _grids(tables: Tables) -> list[str]:
+    grids = tables["GRID"]["id"].to_numpy(np.int64)
+    points = np.concatenate([grids, tables["SPOINT"]["id"].to_numpy(np.int64)])
+    problems: list[str] = []
+    for name, columns in catalogue.GRIDS.items():
+        for column in columns.split():
+            scalar = column.endswith("?")
+            known = points if scalar else grids
+            what = "point" if scalar else "grid"
+            problems += _missing(tables, name, column.rstrip("?"), known, what)
+    return problems
+
+
+def _properties(tables: Tables) -> list[str]:
+    problems: list[str] = []
+    for name, targets in catalogue.PROPERTIES.items():
+        known = _ids(tables, targets, "pid")
+        what = " or ".join(targets)
+        problems += _missing(tables, name, "pid", known, what)
+    return problems
+
+
+def _materials(tables: Tables) -> list[str]:
+    problems: list[str] = []
+    for name, (columns, targets) in catalogue.MATERIALS.items():
+        known = _ids(tables, targets, "mid")
+        for column in columns:
+            what = " or ".join(targets)
+            problems += _missing(tables, name, column, known, what)
+    return problems
+
+
+def _frames(tables: Tables) -> list[str]:
+    known = tables["CORD"]["cid"].to_numpy(np.int64)
+    problems: list[str] = []
+    for name, columns in catalogue.FRAMES.items():
+        for column in columns:
+            problems += _missing(tables, name, column, known, "coordinate system")
+    return problems
+
+
+def _loaded(tables: Tables) -> list[str]:
+    problems: list[str] = []
+    for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
+        known = _ids(tables, targets, "eid")
+        what = f"element ({', '.join(targets)})"
+        problems += _missing(tables, name, column, known, what)
+    return problems
+
+
+STATIC_LOADS = tuple(
+    "FORCE MOMENT FORCE1 MOMENT1 FORCE2 MOMENT2 SLOAD PLOAD1 PLOAD2 PLOAD4 GRAV ACCEL1 "
+    "RFORCE SPCD".split()
+)
+
+
+def _sets(tables: Tables) -> list[str]:
+    """Sets that combine others."""
+    problems: list[str] = []
+    combined = {
+        "SPCADD": ("sets", ("SPC", "SPCADD")),
+        "MPCADD": ("sets", ("MPC", "MPCADD")),
+        "NSMADD": ("sets", ("NSM", "NSML", "NSMADD")),
+        "LOAD": ("lids", STATIC_LOADS),
+        "DLOAD": ("lids", ("TLOAD1", "TLOAD2")),
+    }
+    for name, (column, targets) in combined.items():
+        problems += _missing(
+            tables, name, column, _ids(tables, targets, "sid"), f"{targets[0]} set"
+        )
+    known = tables["TABLED1"]["tid"].to_numpy(np.int64)
+    return problems + _missing(tables, "TLOAD1", "tid", known, "TABLED1")
+
+
+_TRANSIENT = (109, 112, 129)
+_MODAL = (103, 107, 110, 111, 112)
+_SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
+    ("spc", ("SPC", "SPCADD"), ()),
+    ("mpc", ("MPC", "MPCADD"), ()),
+    ("load", (*STATIC_LOADS, "LOAD"), (101, 105)),
+    ("dload", ("DLOAD", "TLOAD1", "TLOAD2"), _TRANSIENT),
+    ("loadset", ("LSEQ",), _TRANSIENT),
+    ("ic", ("TIC",), _TRANSIENT),
+    ("tstep", ("TSTEP",), _TRANSIENT),
+    ("method", ("EIGRL",), _MODAL),
+    ("nsm", ("NSM", "NSML", "NSMADD"), ()),
+)
+
+
+def _selected(deck: Deck, sol: int) -> list[str]:
+    """Sets that the case control selects and that the bulk data do not have."""
+    problems: list[str] = []
+    for attribute, names, solutions in _SELECTED:
+        if solutions and sol not in solutions:
+            continue
+        known = set(_ids(deck.cards, names, "sid").tolist())
+        for subcase in deck.case_control:
+            number = getattr(subcase, attribute)
+            if number and number not in known and not subcase.superelement:
+                problems.append(
+                    f"{deck.path}: subcase {subcase.id}: {attribute.upper()} = {number} "
+                    f"is not defined; expected a set of {', '.join(names[:3])}"
+                )
+    return list(dict.fromkeys(problems))

@@ -1,0 +1,60 @@
+"""A deck: card tables, parameters, case control, and what was remarkable."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pandas as pd
+
+from fem.deck.case_control import Subcase
+from fem.deck.params import DEFAULTS, Value
+from fem.errors import InputError, nearest
+
+
+@dataclass(frozen=True, kw_only=True)
+class Deck:
+    """A Nastran deck.
+
+    Attributes:
+        path: the main file.
+        cards: one table per card name of `fem.deck.schema`, empty ones included.
+        params: parameters that the deck gives, capitals; see `param` for defaults.
+        case_control: subcases in order, the global section applied to each; a deck
+            without subcases has one with id 1.
+        sol: number of the solution sequence, 0 where the deck does not say.
+        executive: executive control statements.
+        notices: what was ignored, replaced or understood, for the user to read.
+        superelements: bulk data of BEGIN SUPER=n sections by n.
+    """
+
+    path: Path
+    cards: Mapping[str, pd.DataFrame]
+    params: Mapping[str, Value]
+    case_control: tuple[Subcase, ...] = ()
+    sol: int = 0
+    executive: tuple[str, ...] = ()
+    notices: tuple[str, ...] = ()
+    superelements: "Mapping[int, Deck]" = field(default_factory=dict)
+
+    def param(self, name: str) -> Value:
+        """Value of a parameter, Nastran's default where the deck does not give it.
+
+        Raises:
+            KeyError: no parameter of that name is known here (an error in the program).
+        """
+        return self.params.get(name, DEFAULTS[name])
+
+    def subcase(self, number: int) -> Subcase:
+        """The subcase of that id.
+
+        Raises:
+            InputError: there is none.
+        """
+        for subcase in self.case_control:
+            if subcase.id == number:
+                return subcase
+        ids = [str(subcase.id) for subcase in self.case_control]
+        raise InputError(
+            f"{self.path}: no subcase {number}; the deck has {', '.join(ids)}"
+            f"{nearest(str(number), ids)}"
+        )

@@ -1,0 +1,78 @@
+"""Executive control: the solution sequence; everything else is passed over."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from fem.deck.source import Line
+from fem.errors import nearest
+
+_SOL = re.compile(r"\s*SOL\s*[=,]?\s*'?([A-Z0-9_]+)", re.I)
+
+SOLUTIONS: dict[str, int] = {
+    "SESTATIC": 101,
+    "SESTATICS": 101,
+    "STATICS": 101,
+    "SEMODES": 103,
+    "MODES": 103,
+    "SEBUCKL": 105,
+    "NLSTATIC": 106,
+    "SEDCEIG": 107,
+    "SEDFREQ": 108,
+    "SEDTRAN": 109,
+    "SEMCEIG": 110,
+    "SEMFREQ": 111,
+    "SEMTRAN": 112,
+    "NLTRAN": 129,
+    "SEAEROSTAT": 144,
+    "AESTAT": 144,
+    "SEFLUTTR": 145,
+    "SEAERO": 146,
+    "DESOPT": 200,
+}
+
+_DMAP = frozenset({"ALTER", "COMPILE", "ENDALTER", "MALTER", "LINK", "SUBDMAP"})
+
+
+@dataclass
+class Executive:
+    """Result of reading the section."""
+
+    sol: int = 0
+    statements: tuple[str, ...] = ()
+    problems: list[str] = field(default_factory=list)
+    notices: list[str] = field(default_factory=list)
+
+
+def read_executive(lines: Iterable[Line]) -> Executive:
+    """Number of the solution and the statements of the section."""
+    result = Executive()
+    statements, dmap, missing = [], False, []
+    for line in lines:
+        text = line.text.split("$")[0].strip()
+        if not text:
+            continue
+        statements.append(text)
+        first = re.split(r"[\s,=(]", text.upper(), maxsplit=1)[0]
+        dmap = dmap or first in _DMAP
+        if line.missing:
+            missing.append(text)
+        match = _SOL.match(text)
+        if match is None or result.sol:
+            continue
+        name = match.group(1).upper()
+        if name.isdigit() and len(name) < 6:
+            result.sol = int(name)
+        elif name in SOLUTIONS:
+            result.sol = SOLUTIONS[name]
+        else:
+            result.problems.append(
+                f"{line.file}:{line.number}: SOL {name}: expected a number or a name "
+                f"such as SEMODES{nearest(name, list(SOLUTIONS))}"
+            )
+    if dmap or missing:
+        result.notices.append(
+            "DMAP statements of the executive control are not executed"
+        )
+    result.statements = tuple(statements)
+    return result

@@ -1,0 +1,187 @@
+"""Nastran decks to `Deck`, and the one place that talks to pyNastran.
+
+Text is cut into cards here, with file and line, so that messages say where; cards of
+irregular shape (EXTERNAL below) are given to pyNastran's card classes one by one, so
+that one faulty card hides no other. All problems of a deck are reported at once.
+"""
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pyNastran.bdf.bdf_interface.bdf_card import BDFCard
+from pyNastran.bdf.cards.bdf_tables import TABDMP1, TABLED1
+from pyNastran.bdf.cards.elements.rigid import RBE3
+from pyNastran.bdf.cards.properties.beam import PBEAM
+from pyNastran.bdf.cards.properties.bush import PBUSH
+from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
+
+from fem.deck.cards.from_pynastran import EXTRACTORS
+from fem.deck.case_control import CaseControl, read_case_control
+from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT
+from fem.deck.checks import check, drop_ignored
+from fem.deck.deck import Deck
+from fem.deck.executive import read_executive
+from fem.deck.lexer import Bulk, RawCard, read_cards
+from fem.deck.parameters import read_parameters
+from fem.deck.sections import Sections, split_sections
+from fem.deck.source import read_source
+from fem.deck.tables import RowReader, make_tables, supported
+from fem.deck.values import Malformed
+from fem.errors import InputError
+
+_CLASSES: dict[str, Any] = {
+    "PBEAM": PBEAM,
+    "PBUSH": PBUSH,
+    "PCOMP": PCOMP,
+    "PCOMPG": PCOMPG,
+    "RBE3": RBE3,
+    "TABLED1": TABLED1,
+    "TABDMP1": TABDMP1,
+}
+
+
+def _external(name: str) -> Callable[[RawCard], list[dict[str, Any]]]:
+    parse, extract = _CLASSES[name].add_card, EXTRACTORS[name]
+
+    def read(card: RawCard) -> list[dict[str, Any]]:
+        fields = [field or None for field in card.fields]
+        while fields[-1] is None:
+            fields.pop()
+        try:
+            return extract(parse(BDFCard(fields, has_none=False)))
+        except Malformed:
+            raise
+        # pyNastran raises whatever its card classes meet in a faulty card.
+        except Exception as error:
+            text = " ".join(str(error).split("\n")[0].split())
+            raise Malformed(text or "is incomplete") from None
+
+    return read
+
+
+EXTERNAL: dict[str, RowReader] = {name: _external(name) for name in _CLASSES}
+
+
+def read_deck(path: str | Path, *, ignore: Collection[str] = ()) -> Deck:
+    """Read a Nastran deck with its INCLUDE files.
+
+    Args:
+        path: the deck; a file of bulk data alone (punch) will do.
+        ignore: names of unsupported cards to go on without; recorded in the notices.
+
+    Raises:
+        InputError: everything that is wrong with the deck, each with file and line.
+    """
+    path = Path(path)
+    source = read_source(path)
+    sections = split_sections(source.lines, str(path))
+    executive = read_executive(sections.executive)
+    ignore = {name.upper() for name in ignore}
+    case = read_case_control(sections.case_control, refuse="CASE" not in ignore)
+    notices = [*source.notices, *executive.notices, *case.notices]
+    problems = [*sections.problems, *executive.problems, *case.problems]
+    bulk = read_cards(sections.bulk)
+    deck = _deck(path, bulk, case, executive.sol, ignore, problems, notices)
+    parts = _superelements(path, sections, executive.sol, ignore, problems)
+    if problems:
+        raise InputError(problems)
+    if sections.has_control and not bulk.has_enddata and not parts:
+        notices.append(f"{path}: no ENDDATA; the deck may be cut off")
+    return Deck(
+        path=path,
+        cards=deck.cards,
+        params=deck.params,
+        case_control=case.subcases,
+        sol=executive.sol,
+        executive=executive.statements,
+        notices=tuple(dict.fromkeys(notices)),
+        superelements=parts,
+    )
+
+
+def _deck(
+    path: Path,
+    bulk: Bulk,
+    case: CaseControl,
+    sol: int,
+    ignore: Collection[str],
+    problems: list[str],
+    notices: list[str],
+) -> Deck:
+    """Tables and parameters of one bulk data section."""
+    problems += bulk.problems
+    notices += bulk.notices
+    groups: dict[str, list[RawCard]] = {}
+    for card in bulk.cards:
+        groups.setdefault(card.name, []).append(card)
+    params = read_parameters(groups.pop("PARAM", []), case.params, problems, notices)
+    ignored = _set_aside(groups, ignore, problems, notices)
+    tables = make_tables(groups, EXTERNAL, problems, notices)
+    deck = Deck(path=path, cards=tables, params=params, case_control=case.subcases)
+    if not problems:
+        tables.update(drop_ignored(tables, ignored, notices))
+        problems += check(deck, sol, notices)
+    return deck
+
+
+def _set_aside(
+    groups: dict[str, list[RawCard]],
+    ignore: Collection[str],
+    problems: list[str],
+    notices: list[str],
+) -> list[RawCard]:
+    """Take cards that are not supported out of `groups`.
+
+    Returns:
+        Those that the user wants ignored.
+    """
+    ignore = {*ignore, *(PROPERTY_OF[name] for name in ignore if name in PROPERTY_OF)}
+    unused: list[str] = []
+    ignored: list[RawCard] = []
+    unsupported: list[str] = []
+    for name in sorted(groups):
+        if name in ignore:
+            cards = groups.pop(name)
+            ignored += cards
+            notices.append(f"{_lines(name, cards)} ignored on request")
+        elif not supported(name, EXTERNAL):
+            cards = groups.pop(name)
+            if name in WITHOUT_EFFECT:
+                unused.append(f"{name} ({len(cards)})")
+            else:
+                unsupported.append(name)
+                problems.append(f"{_lines(name, cards)} not supported")
+    if unused:
+        notices.append(f"cards without effect here: {', '.join(unused)}")
+    if unsupported:
+        problems.append(f"to go on without them: --ignore {','.join(unsupported)}")
+    return ignored
+
+
+def _lines(name: str, cards: Sequence[RawCard]) -> str:
+    """Where the cards of one name are: "CBEND (2 cards; a.bdf:12, a.bdf:13)"."""
+    places = ", ".join(card.place for card in cards[:5])
+    more = ", ..." if len(cards) > 5 else ""
+    plural = "cards" if len(cards) > 1 else "card"
+    return f"{name} ({len(cards)} {plural}; {places}{more})"
+
+
+def _superelements(
+    path: Path,
+    sections: Sections,
+    sol: int,
+    ignore: Collection[str],
+    problems: list[str],
+) -> Mapping[int, Deck]:
+    """Decks of the BEGIN SUPER=n sections."""
+    decks = {}
+    for number, lines in sections.superelements.items():
+        bulk, notices = read_cards(lines), []
+        deck = _deck(
+            path, bulk, CaseControl(subcases=()), sol, ignore, problems, notices
+        )
+        decks[number] = Deck(
+            path=path, cards=deck.cards, params=deck.params, notices=tuple(notices)
+        )
+    return decks

@@ -1,0 +1,174 @@
+"""Cards whose fields stand at fixed places, described by one line of text each.
+
+A description lists the fields in order: `name:type` is required, `name:type=default`
+may be blank; a default may be the name of an earlier field. Types: i integer, f real,
+c component digits, s word, u integer or real. `-` is a field that is not used. Fields
+in parentheses repeat, in groups, to the end of the card; each group becomes a row.
+"""
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from fem.deck.lexer import RawCard
+from fem.deck.values import CONVERTERS, Malformed
+
+_EXPECTED = {
+    "i": "an integer",
+    "f": "a real number",
+    "c": "component digits",
+    "s": "a word",
+    "u": "an integer or a real number",
+}
+
+
+@dataclass(frozen=True)
+class Field:
+    """One field of a description; `default` None: required."""
+
+    name: str
+    kind: str
+    default: Any = None
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Fields before the parentheses, fields within them."""
+
+    fixed: tuple[Field, ...]
+    repeated: tuple[Field, ...]
+
+
+@cache
+def layout(text: str) -> Layout:
+    """The description of a card, parsed."""
+    fixed, _, repeated = text.partition("(")
+    return Layout(_fields(fixed), _fields(repeated.rstrip(" )")))
+
+
+def _fields(text: str) -> tuple[Field, ...]:
+    fields = []
+    for item in text.split():
+        if item == "-":
+            fields.append(Field("-", "-"))
+            continue
+        match = re.fullmatch(r"(\w+):(\w)(?:=(.*))?", item)
+        assert match is not None, item
+        name, kind, default = match.groups()
+        fields.append(Field(name, kind, _default(kind, default)))
+    return tuple(fields)
+
+
+def _default(kind: str, text: str | None) -> Any:
+    """The default of a field; a tuple names an earlier field."""
+    if text is None or kind in "sc":
+        return text
+    if text == "nan":
+        return math.nan
+    if re.match(r"[a-z]", text):
+        return (text,)
+    return CONVERTERS[kind](text)
+
+
+def read_regular(
+    cards: Sequence[RawCard], text: str, problems: list[str], notices: list[str]
+) -> dict[str, list]:
+    """Columns of all cards of one name.
+
+    Args:
+        cards: the cards.
+        text: description of their fields.
+        problems: what is wrong in fields is appended, with its place.
+        notices: unused fields are appended.
+
+    Returns:
+        Lists by column name, with `file` and `line`; rows of faulty cards hold 0 or
+        NaN in the faulty fields and must not be used.
+    """
+    shape = layout(text)
+    rows = _expand(cards, shape, problems) if shape.repeated else None
+    if rows is None:
+        rows = [(card, card.fields) for card in cards]
+        _report_unused(cards, len(shape.fixed), notices)
+    columns: dict[str, list] = {
+        "file": [card.file for card, _ in rows],
+        "line": [card.line for card, _ in rows],
+    }
+    for index, item in enumerate((*shape.fixed, *shape.repeated), start=1):
+        if item.kind != "-":
+            columns[item.name] = _column(rows, index, item, columns, problems)
+    return columns
+
+
+def _column(
+    rows: Sequence[tuple[RawCard, list[str]]],
+    index: int,
+    item: Field,
+    columns: dict[str, list],
+    problems: list[str],
+) -> list:
+    convert, default = CONVERTERS[item.kind], item.default
+    inherited = columns[default[0]] if isinstance(default, tuple) else None
+    filler = {"f": math.nan, "i": 0}.get(item.kind, "")
+    values = []
+    for number, (card, fields) in enumerate(rows):
+        text = fields[index] if index < len(fields) else ""
+        if text:
+            try:
+                values.append(convert(text))
+            except Malformed as error:
+                problems.append(
+                    f"{card.place}: {card.name} field {item.name.upper()}: found "
+                    f"'{text}', expected {error}: {card}"
+                )
+                values.append(filler)
+        elif inherited is not None:
+            values.append(inherited[number])
+        elif default is None:
+            problems.append(
+                f"{card.place}: {card.name} field {item.name.upper()} is blank, "
+                f"expected {_EXPECTED[item.kind]}: {card}"
+            )
+            values.append(filler)
+        else:
+            values.append(default)
+    return values
+
+
+def _expand(
+    cards: Sequence[RawCard], shape: Layout, problems: list[str]
+) -> list[tuple[RawCard, list[str]]]:
+    """One row of texts per group of repeated fields that is not blank."""
+    head, size = 1 + len(shape.fixed), len(shape.repeated)
+    rows = []
+    for card in cards:
+        before = len(rows)
+        prefix = (card.fields + [""] * head)[:head]
+        for start in range(head, len(card.fields), size):
+            group = card.fields[start : start + size]
+            if any(group):
+                rows.append((card, prefix + group))
+        if len(rows) == before:
+            name = shape.repeated[0].name.upper()
+            problems.append(f"{card.place}: {card.name} field {name} is blank: {card}")
+    return rows
+
+
+def _report_unused(cards: Sequence[RawCard], used: int, notices: list[str]) -> None:
+    longer = [card for card in cards if any(card.fields[used + 1 :])]
+    if longer:
+        notices.append(
+            f"{longer[0].place}: {longer[0].name}: fields after number {used} are not "
+            f"used ({len(longer)} cards)"
+        )
+
+
+def as_array(values: list, kind: str) -> np.ndarray:
+    """A column of one type as an array for a table."""
+    dtype = {"i": np.int64, "f": np.float64}.get(kind, object)
+    return np.array(values, dtype=dtype)
