@@ -126,10 +126,10 @@ class Airframe(Section):
     model: Model | None = Field(
         default=None, description="a built-in reference aircraft, instead of `deck`"
     )
-    topology: str = Field(
-        default="1",
-        description="how the built-in model holds its gears: 1, 2 or distributed; for "
-        "a deck a mere label of the result tables",
+    topology: str | None = Field(
+        default=None,
+        description="how the built-in model holds its gears: 1, 2 or distributed, by "
+        "default the model's first; for a deck a mere label of the result tables",
         coerce_numbers_to_str=True,
     )
     deck: Path | None = Field(

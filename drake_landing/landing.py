@@ -1,0 +1,226 @@
+"""The landing run: a diagram, an initial state just above touchdown, logged signals.
+
+The multibody model lives in the axes A (x aft, y to starboard, z up); what is logged of
+the airframe is turned into the axes B of the deck, see `axes`.
+"""
+
+import math
+import time as clock
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
+from pydrake.systems.framework import Context, EventStatus
+
+from drake_landing.axes import gear_in_A
+from drake_landing.case import Scenario, Simulation
+from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.gear import LandingGear
+from drake_landing.handover import distinct_instants
+from drake_landing.history import ATTACHMENT, POINT, STRUT, TYRE, LandingHistory
+from drake_landing.initial_state import angular_velocity, attitude, set_initial_state
+from drake_landing.progress import Reporter, Silent
+from systems.modal_body import ModalBody
+
+Float64 = npt.NDArray[np.float64]
+
+_POSE = ("qw", "qx", "qy", "qz", "px", "py", "pz")
+
+
+class LandingError(RuntimeError):
+    """The simulation could not be carried through; says when and what helps."""
+
+
+def build_landing(
+    body: ModalBody,
+    gears: Sequence[LandingGear],
+    monitoring: Mapping[str, int],
+    R_AB: Float64,
+) -> LandingDiagram:
+    """The diagram of an aircraft, for any number of runs.
+
+    Args:
+        body: in A.
+        gears: in B, as in the case.
+        monitoring: point -> grid id.
+        R_AB: (3, 3).
+    """
+    return MakeLandingDiagram(
+        body,
+        [gear_in_A(gear, R_AB) for gear in gears],
+        monitor_nodes=list(monitoring.values()),
+    )
+
+
+def fly(
+    landing: LandingDiagram,
+    scenario: Scenario,
+    simulation: Simulation,
+    monitoring: Mapping[str, int],
+    R_AB: Float64,
+    progress: Reporter | None = None,
+) -> LandingHistory:
+    """Simulates one landing.
+
+    Args:
+        landing: of `build_landing`, with the same monitoring points and axes.
+        scenario: state at touchdown.
+        simulation: duration and integrator.
+        monitoring: point -> grid id.
+        R_AB: (3, 3).
+        progress: told the share of the duration.
+
+    Raises:
+        LandingError: the integrator gave up.
+    """
+    context = landing.diagram.CreateDefaultContext()
+    touchdown_state(landing, context, scenario, simulation.clearance)
+    start = clock.process_time()
+    simulator = _simulator(landing, context, simulation, progress or Silent())
+    try:
+        simulator.Initialize()
+        simulator.AdvanceTo(simulation.duration)
+    except (RuntimeError, SystemExit) as error:  # Drake's checks exit
+        raise LandingError(
+            f"the landing simulation stopped at {context.get_time():.4f} s of "
+            f"{simulation.duration:g} s: {error}; a larger simulation.accuracy, fewer "
+            "modes or the integrator radau3 may help"
+        ) from None
+    integrator = simulator.get_integrator()
+    figures = {
+        "steps": float(integrator.get_num_steps_taken()),
+        "evaluations": float(integrator.get_num_derivative_evaluations()),
+        "processor_seconds": clock.process_time() - start,
+        "sink_energy": _sink_energy(landing, scenario.sink_rate),
+    }
+    return _history(landing, context, monitoring, R_AB, figures)
+
+
+def touchdown_state(
+    landing: LandingDiagram, context: Context, scenario: Scenario, clearance: float
+) -> None:
+    """Steady flight with the scenario's attitude, velocities and rates."""
+    s, rad = scenario, math.radians
+    set_initial_state(
+        landing,
+        context,
+        v_WG=[-s.forward_speed, s.side_speed, -s.sink_rate],
+        R_WB=attitude(rad(s.roll), rad(s.pitch), rad(s.yaw)),
+        w_B=angular_velocity(rad(s.roll_rate), rad(s.pitch_rate), rad(s.yaw_rate)),
+        clearance=clearance,
+    )
+
+
+def _simulator(
+    landing: LandingDiagram,
+    context: Context,
+    simulation: Simulation,
+    progress: Reporter,
+) -> Simulator:
+    simulator = Simulator(landing.diagram, context)
+    config = SimulatorConfig(
+        integration_scheme=simulation.integrator,
+        max_step_size=simulation.max_step,
+        accuracy=simulation.accuracy,
+        use_error_control=True,
+    )
+    ApplySimulatorConfig(config, simulator)
+    context.SetAccuracy(simulation.accuracy)
+
+    def tell(root: Context) -> EventStatus:
+        now = root.get_time()
+        progress.share(now / simulation.duration, f"{now:.3f} s")
+        return EventStatus.DidNothing()
+
+    simulator.set_monitor(tell)
+    return simulator
+
+
+def _sink_energy(landing: LandingDiagram, sink_rate: float) -> float:
+    mass = landing.body.mass + sum(gear.mass for gear in landing.gears)
+    return 0.5 * mass * sink_rate**2
+
+
+def _history(
+    landing: LandingDiagram,
+    context: Context,
+    monitoring: Mapping[str, int],
+    R_AB: Float64,
+    figures: dict[str, float],
+) -> LandingHistory:
+    log = landing.loggers["airframe.pose"].FindLog(context)
+    keep = distinct_instants(log.sample_times())
+    index = pd.Index(log.sample_times()[keep], name="time")
+
+    def signal(port: str) -> Float64:
+        """(t, size) of a logged port."""
+        return landing.loggers[port].FindLog(context).data().T[keep]
+
+    def table(values: Float64, columns: Sequence[str]) -> pd.DataFrame:
+        return pd.DataFrame(values, columns=list(columns), index=index)
+
+    loads = signal("attachment.load_in_airframe_axes").reshape(len(keep), -1, 2, 3)
+    points = signal("airframe.monitor_acceleration").reshape(len(keep), -1, 2, 3)
+    return LandingHistory(
+        attachment_node={gear.name: gear.attachment_node for gear in landing.gears},
+        wheels={gear.name: gear.wheel_names for gear in landing.gears},
+        attachment={
+            gear.name: table((loads[:, i] @ R_AB).reshape(len(keep), 6), ATTACHMENT)
+            for i, gear in enumerate(landing.gears)
+        },
+        tyre={
+            wheel: table(_tyre(landing, signal, gear.name, wheel), TYRE)
+            for gear in landing.gears
+            for wheel in gear.wheel_names
+        },
+        strut={
+            gear.name: table(_strut(landing, signal, gear.name), STRUT)
+            for gear in landing.gears
+        },
+        monitoring={
+            point: table(points[:, i, 0] @ R_AB, POINT)
+            for i, point in enumerate(monitoring)
+        },
+        motion=table(signal("airframe.pose"), _POSE),
+        amplitudes=signal("airframe.modal_amplitudes"),
+        energy=_energy(landing, signal, index),
+        figures=figures,
+    )
+
+
+def _tyre(landing: LandingDiagram, signal, gear: str, wheel: str) -> Float64:
+    """Columns `TYRE`."""
+    contact = signal(f"tire_{wheel}.contact")
+    joint = landing.bodies[gear].spins[wheel]
+    rate = signal("plant.state")[
+        :, landing.plant.num_positions() + joint.velocity_start()
+    ]
+    # A wheel that rolls toward -x turns in the negative sense about the axle.
+    return np.column_stack([contact, -rate])
+
+
+def _strut(landing: LandingDiagram, signal, gear: str) -> Float64:
+    """Columns `STRUT`."""
+    joint, state = landing.bodies[gear].strut, signal("plant.state")
+    rate = state[:, landing.plant.num_positions() + joint.velocity_start()]
+    force = signal(f"shock_absorber_{gear}.force")
+    return np.column_stack([state[:, joint.position_start()], rate, force])
+
+
+def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:
+    """Where the energy is; the gears' kinetic energy is what the others leave."""
+
+    def stored(names: Sequence[str]) -> Float64:
+        return np.sum([signal(f"{name}.energy")[:, 0] for name in names], axis=0)
+
+    total = signal("energy_budget.total")[:, 0]
+    parts = {
+        "airframe": stored(["airframe"]),
+        "shock absorbers": stored([f"shock_absorber_{g.name}" for g in landing.gears]),
+        "tyres": stored([f"tire_{wheel}" for wheel in landing.tires]),
+        "dissipated": signal("energy_budget.dissipated")[:, 0],
+    }
+    parts["gears, moving"] = total - np.sum(list(parts.values()), axis=0)
+    return pd.DataFrame({**parts, "balance": total - total[0]}, index=index)

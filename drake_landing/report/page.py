@@ -1,0 +1,106 @@
+"""Puts text, pictures and tables of a run together on one page without outer files."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from jinja2 import Environment, StrictUndefined
+
+from drake_landing.results import write_aside
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cell:
+    """One cell of a table; numbers are set flush right."""
+
+    text: str
+    number: bool = False
+
+
+@dataclass(frozen=True, kw_only=True)
+class Block:
+    """A picture, a table, or text to be unfolded."""
+
+    caption: str = ""
+    svg: str = ""
+    heads: Sequence[str] = ()
+    rows: Sequence[Sequence[Cell]] = ()
+    pre: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Section:
+    """A titled part of the page."""
+
+    id: str
+    title: str
+    text: str = ""
+    blocks: Sequence[Block] = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Page:
+    """All that a page shows."""
+
+    name: str
+    title: str
+    story: str
+    key_figures: Sequence[tuple[str, str]]
+    sections: Sequence[Section]
+    notices: Sequence[str] = ()
+    footer: str = ""
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+def write_page(path: Path, page: Page) -> None:
+    """Writes a self-contained HTML file."""
+    folder = files("drake_landing.report")
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    template = environment.from_string(
+        folder.joinpath("report.html.j2").read_text(encoding="utf-8")
+    )
+    text = template.render(
+        vars(page) | {"style": folder.joinpath("style.css").read_text(encoding="utf-8")}
+    )
+    write_aside(path, lambda to: to.write_text(text, encoding="utf-8") and None)
+
+
+def table_block(
+    table: pd.DataFrame,
+    heads: dict[str, str],
+    formats: dict[str, str],
+    caption: str = "",
+) -> Block:
+    """A table of chosen columns.
+
+    Args:
+        table: rows.
+        heads: column -> heading, in the order of the page.
+        formats: column -> format specification of its numbers.
+        caption: above the table.
+    """
+    rows = [
+        [_cell(row[column], formats.get(column, "")) for column in heads]
+        for row in table.to_dict("records")
+    ]
+    return Block(heads=list(heads.values()), rows=rows, caption=caption)
+
+
+def pairs_block(pairs: Iterable[tuple[str, str]], caption: str = "") -> Block:
+    """A table of two columns: what, and its value."""
+    rows = [[Cell(text=what), Cell(text=value)] for what, value in pairs]
+    return Block(heads=("", ""), rows=rows, caption=caption)
+
+
+def _cell(value: Any, spec: str) -> Cell:
+    if isinstance(value, float) and math.isnan(value):
+        return Cell(text="–", number=True)
+    if isinstance(value, int | float):
+        return Cell(text=format(value, spec), number=True)
+    return Cell(text=str(value))
