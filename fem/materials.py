@@ -42,7 +42,7 @@ def complete(e: Float64, g: Float64, nu: Float64) -> tuple[Float64, Float64, Flo
         e_full = np.where(no_e & single, 2.0 * (1.0 + nu) * g, e)
         g_full = np.where(no_g & single, e / (2.0 * (1.0 + nu)), g)
         nu_full = np.where(no_nu & single, e / (2.0 * g) - 1.0, nu)
-    return tuple(np.nan_to_num(v, nan=0.0) for v in (e_full, g_full, nu_full))
+    return np.nan_to_num(e_full), np.nan_to_num(g_full), np.nan_to_num(nu_full)
 
 
 def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.deck.schema import COLUMNS
+from fem.deck.schema import ALIASES, COLUMNS
 from fem.errors import InputError
 
 if TYPE_CHECKING:
@@ -31,20 +31,25 @@ def column(rows: pd.DataFrame, name: str) -> npt.NDArray[np.float64]:
 def where(card: str, row: pd.Series) -> str:
     """Name of a card for messages: "wing.bdf:12: CBAR 5"."""
     place = f"{row['file']}:{row['line']}: " if row.get("file") else ""
-    return f"{place}{card} {row.iloc[0]}"
+    return f"{place}{card} {row[id_column(card)]}"
+
+
+def id_column(card: str) -> str:
+    """Name of the column with the id of a card: "eid", "pid", "sid" ..."""
+    return COLUMNS[ALIASES.get(card, card)].split()[0]
 
 
 def refer(
     rows: pd.DataFrame, card: str, column: str, targets: pd.DataFrame, kind: str
 ) -> pd.DataFrame:
-    """For each row the target row whose first column equals `rows[column]`.
+    """For each row the target row whose id equals `rows[column]`.
 
     Args:
         rows: referring cards.
         card: their name, for messages.
         column: the referring column.
-        targets: table whose first column is the id.
-        kind: name of the target, for messages ("PBAR").
+        targets: the table that is referred to.
+        kind: its card, "PBAR".
 
     Returns:
         One target row for each row, in their order, index 0 ... n-1.
@@ -52,7 +57,7 @@ def refer(
     Raises:
         InputError: absent targets, one line per absent id with its first user.
     """
-    key = targets.columns[0]
+    key = id_column(kind)
     known = targets.drop_duplicates(key, keep="last").set_index(key, drop=False)
     wanted = rows[column].to_numpy()
     absent = ~np.isin(wanted, known.index.to_numpy())

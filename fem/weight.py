@@ -81,7 +81,7 @@ def rigid_modes(points: Points, reference: npt.ArrayLike) -> Float64:
 
 def weigh(
     points: Points,
-    mass: sp.spmatrix,
+    mass: sp.csr_matrix,
     *,
     reference: npt.ArrayLike = (0.0, 0.0, 0.0),
     wtmass: float = 1.0,

@@ -71,10 +71,10 @@ class Elimination:
         """(g,) displacements with all free rows at rest."""
         return self.S @ self.enforced
 
-    def reduce(self, matrix: sp.spmatrix) -> sp.csr_matrix:
+    def reduce(self, matrix: sp.csr_matrix) -> sp.csr_matrix:
         """(f, f) Tᵀ matrix T, exactly symmetric where the matrix is symmetric."""
         if not len(self.m):
-            return sp.csr_matrix(matrix)[self.f][:, self.f]
+            return matrix[self.f][:, self.f]
         reduced = sp.csr_matrix(self.T.T @ (matrix @ self.T))
         upper = sp.triu(reduced, format="csr")
         return sp.csr_matrix(upper + sp.triu(upper, 1).T)
@@ -85,19 +85,13 @@ class Elimination:
         Raises:
             InputError: rows that are not in the s-set.
         """
-        at = np.searchsorted(self.s, dof)
-        inside = at < len(self.s)
-        found = (
-            inside & (self.s[np.where(inside, at, 0)] == dof)
-            if len(self.s)
-            else (np.zeros(len(dof), bool))
-        )
-        if not np.all(found):
+        loose = ~np.isin(dof, self.s)
+        if loose.any():
             raise InputError(
-                f"SPCD enforces {int(np.sum(~found))} freedoms that no SPC constrains"
+                f"SPCD enforces {int(loose.sum())} freedoms that no SPC constrains"
             )
         enforced = self.enforced.copy()
-        enforced[at] = value
+        enforced[np.searchsorted(self.s, dof)] = value
         return replace(self, enforced=enforced)
 
     def with_fixed(self, dof: Int64) -> "Elimination":
@@ -260,7 +254,7 @@ def _solve_loops(
     looped = np.flatnonzero((size[group] > 1) | (among.diagonal() != 0.0))
     if not len(looped):
         return sp.csr_matrix(sp.identity(len(m))), among
-    identity = sp.identity(len(m), format="lil")
+    identity = sp.lil_matrix(sp.identity(len(m)))
     inside = among.tocoo()
     same = group[inside.row] == group[inside.col]
     block = sp.csr_matrix(
