@@ -11,8 +11,10 @@ from fem.elements.beam import beam_notices, read_cbeam
 from fem.elements.block import ElementBlock
 from fem.elements.bush import read_cbush
 from fem.elements.concentrated_mass import read_conm1, read_conm2
+from fem.elements.quad4 import read_cquad4
 from fem.elements.rod import read_crod, read_ctube
 from fem.elements.scalar import read_cdamp, read_celas1, read_celas2, read_cmass
+from fem.elements.tria3 import read_ctria3
 from fem.elements.visc import read_cvisc
 from fem.errors import InputError
 from fem.nonstructural_mass import add_nonstructural_mass
@@ -37,7 +39,9 @@ READERS: dict[str, Reader] = {
     "CMASS1": read_cmass,
     "CONM1": read_conm1,
     "CONM2": read_conm2,
+    "CQUAD4": read_cquad4,
     "CROD": read_crod,
+    "CTRIA3": read_ctria3,
     "CTUBE": read_ctube,
     "CVISC": read_cvisc,
 }
