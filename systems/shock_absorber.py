@@ -157,6 +157,11 @@ class StrutLaw:
 
     def _limit(self, gas_length: Scalar) -> Scalar:
         length = gas_length + self._second_length
+        if length <= self._p.max_stroke:
+            raise ValueError(
+                f"shock absorber: numeric parameter gas_length makes {length} m of "
+                f"gas, expected > {self._p.max_stroke} m, the mechanical stroke"
+            )
         return length - (1.0 - _GAS_LIMIT) * (length - self._p.max_stroke)
 
     def parts(

@@ -229,6 +229,16 @@ def test_numeric_parameters_change_the_force():
     assert parts[1] == pytest.approx(135e3)
 
 
+def test_gas_length_tuned_below_the_stroke_is_refused():
+    system = ShockAbsorber(strut())
+
+    def shorten(context):
+        context.get_mutable_numeric_parameter(0).SetAtIndex(1, 0.4)
+
+    with pytest.raises(ValueError, match=r"0\.4 m of gas, expected > 0\.468 m"):
+        evaluate(system, ["force"], [0.2, 1.0], change=shorten)
+
+
 @pytest.mark.parametrize("parameters", ALL)
 @pytest.mark.parametrize(
     "state", [(0.21, 1.0), (0.3, -0.5), (0.0004, 0.2), (-0.01, -1)]
