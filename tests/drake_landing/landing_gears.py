@@ -43,7 +43,7 @@ def _main(name: str, node: int, side: float) -> dict:
     }
 
 
-def aircraft_gears() -> tuple[LandingGear, LandingGear, LandingGear]:
+def aircraft_gears() -> tuple[LandingGear, ...]:
     """Nose, left main and right main gear."""
     data = (
         _NOSE,

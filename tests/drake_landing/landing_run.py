@@ -1,0 +1,58 @@
+"""Runs a landing of the synthetic aircraft and returns what was logged."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
+from pydrake.systems.framework import Context
+
+from drake_landing.diagram import LandingDiagram
+from drake_landing.initial_state import set_initial_state
+
+
+@dataclass(frozen=True)
+class Run:
+    """Logged signals by "<system>.<port>", (size, times), and the last context."""
+
+    time: np.ndarray
+    signals: dict[str, np.ndarray]
+    context: Context
+    evaluations: int
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.signals[name]
+
+
+def land(
+    landing: LandingDiagram,
+    *,
+    duration: float,
+    sink_rate: float = 1.83,
+    speed: float = 67.0,
+    step: float | None = None,
+    accuracy: float = 1e-5,
+    scheme: str = "runge_kutta3",
+    **state,
+) -> Run:
+    """With error control at `accuracy`, or with a fixed `step`, s."""
+    simulator = Simulator(landing.diagram)
+    config = SimulatorConfig(
+        integration_scheme=scheme,
+        accuracy=accuracy,
+        max_step_size=step or 5e-3,
+        use_error_control=step is None,
+    )
+    ApplySimulatorConfig(config, simulator)
+    context = simulator.get_mutable_context()
+    state.setdefault("v_WG", [-speed, 0.0, -sink_rate])
+    set_initial_state(landing, context, **state)
+    simulator.Initialize()
+    simulator.AdvanceTo(duration)
+    logs = {name: log.FindLog(context) for name, log in landing.loggers.items()}
+    time = next(iter(logs.values())).sample_times()
+    return Run(
+        time.copy(),
+        {name: log.data().copy() for name, log in logs.items()},
+        context,
+        simulator.get_integrator().get_num_derivative_evaluations(),
+    )

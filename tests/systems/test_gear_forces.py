@@ -1,0 +1,73 @@
+"""Forces reach the plant with the right sign and at the right place."""
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+from systems.gear_forces import GearForces
+from tests.systems.small_gears import two_gears, violent_state
+
+
+def _forces():
+    plant, _, wheels, struts, spins = two_gears()
+    system = GearForces(plant, wheels, struts, {"right": spins["right"]})
+    context = system.CreateDefaultContext()
+    inputs = {
+        "tire_left": np.arange(6.0),
+        "tire_right": -np.arange(6.0),
+        "strut_left": [1e4],
+        "strut_right": [2e4],
+        "brake_right": [300.0],
+    }
+    for name, value in inputs.items():
+        system.GetInputPort(name).FixValue(context, value)
+    return plant, wheels, struts, spins, system, context
+
+
+def test_strut_force_extends_the_strut_and_brake_torque_turns_the_wheel():
+    plant, _, struts, spins, system, context = _forces()
+    tau = system.GetOutputPort("generalized_force").Eval(context)
+    expected = np.zeros(plant.num_velocities())
+    expected[struts["left"].velocity_start()] = -1e4
+    expected[struts["right"].velocity_start()] = -2e4
+    expected[spins["right"].velocity_start()] = 300.0
+    assert_allclose(tau, expected)
+
+
+def test_tyre_wrenches_act_at_the_wheel_centres():
+    plant, wheels, _, _, system, context = _forces()
+    forces = system.GetOutputPort("spatial_forces").Eval(context)
+    assert [f.body_index for f in forces] == [w.index() for w in wheels.values()]
+    for force, sign in zip(forces, (1.0, -1.0)):
+        assert not np.any(force.p_BoBq_B)
+        assert_allclose(force.F_Bq_W.get_coeffs(), sign * np.arange(6.0))
+    # The plant feels the power of the wrenches at the wheels' velocities.
+    of_plant = plant.CreateDefaultContext()
+    plant.SetPositionsAndVelocities(of_plant, violent_state(plant))
+    plant.get_applied_spatial_force_input_port().FixValue(of_plant, forces)
+    h = 1e-6
+    kinetic = []
+    x = plant.GetPositionsAndVelocities(of_plant)
+    rate = plant.EvalTimeDerivatives(of_plant).CopyToVector()
+    for t in (-h, h):
+        other = plant.CreateDefaultContext()
+        plant.SetPositionsAndVelocities(other, x + t * rate)
+        kinetic.append(plant.EvalKineticEnergy(other))
+    power = sum(
+        sign * wheel.EvalSpatialVelocityInWorld(of_plant).get_coeffs() @ np.arange(6.0)
+        for wheel, sign in zip(wheels.values(), (1.0, -1.0))
+    )
+    assert_allclose((kinetic[1] - kinetic[0]) / (2 * h), power, rtol=1e-5)
+
+
+def test_feedthrough_of_each_output_is_its_own():
+    *_, system, _ = _forces()
+    spatial = system.GetOutputPort("spatial_forces").get_index()
+    general = system.GetOutputPort("generalized_force").get_index()
+    for name, to_spatial in (
+        ("tire_left", True),
+        ("strut_left", False),
+        ("brake_right", False),
+    ):
+        port = system.GetInputPort(name).get_index()
+        assert system.HasDirectFeedthrough(port, spatial) is to_spatial
+        assert system.HasDirectFeedthrough(port, general) is not to_spatial

@@ -1,0 +1,67 @@
+"""Wheel and strut kinematics against the plant and difference quotients."""
+
+import numpy as np
+from numpy.testing import assert_allclose
+
+from systems.wheel_kinematics import WheelKinematics
+from tests.systems.small_gears import NAMES, two_gears, violent_state
+
+
+def _outputs(system, state):
+    context = system.CreateDefaultContext()
+    system.GetInputPort("plant_state").FixValue(context, state)
+    return {
+        system.get_output_port(i).get_name(): system.get_output_port(i).Eval(context)
+        for i in range(system.num_output_ports())
+    }
+
+
+def test_ports_give_position_axle_and_their_rates():
+    plant, _, wheels, struts, _ = two_gears()
+    system = WheelKinematics(plant, wheels, struts)
+    state = violent_state(plant)
+    context = plant.CreateDefaultContext()
+    plant.SetPositionsAndVelocities(context, state)
+    v = plant.GetVelocities(context)
+    q_rate = plant.MapVelocityToQDot(context, v)
+    h = 1e-6
+    shift = h * np.concatenate([q_rate, np.zeros_like(v)])
+    now = _outputs(system, state)
+    after, before = _outputs(system, state + shift), _outputs(system, state - shift)
+    for name in NAMES:
+        p, axle, velocity, spin = now[f"wheel_{name}"].reshape(4, 3)
+        X = wheels[name].EvalPoseInWorld(context)
+        assert_allclose(p, X.translation())
+        assert_allclose(axle, X.rotation().matrix()[:, 1])
+        slope = (after[f"wheel_{name}"] - before[f"wheel_{name}"]) / (2 * h)
+        assert_allclose(velocity, slope[:3], atol=1e-8)
+        assert_allclose(np.cross(spin, axle), slope[3:6], atol=1e-8)
+        stroke, rate = now[f"strut_{name}"]
+        assert stroke == struts[name].get_translation(context)
+        assert rate == struts[name].get_translation_rate(context)
+
+
+def test_a_stroke_lifts_the_axle_toward_the_fitting():
+    plant, _, wheels, struts, _ = two_gears()
+    context = plant.CreateDefaultContext()
+    struts["left"].set_translation(context, 0.2)
+    state = plant.GetPositionsAndVelocities(context)
+    out = _outputs(WheelKinematics(plant, wheels, struts), state)
+    assert_allclose(out["wheel_left"][:3], [0.1, 0.0, -1.3], atol=1e-15)
+    assert_allclose(out["strut_left"], [0.2, 0.0])
+    assert_allclose(out["wheel_right"][:3], [0.1, 0.0, -1.5], atol=1e-15)
+
+
+def test_contexts_do_not_share_state():
+    plant, _, wheels, struts, _ = two_gears()
+    system = WheelKinematics(plant, wheels, struts)
+    contexts = [system.CreateDefaultContext() for _ in range(2)]
+    states = [violent_state(plant, seed) for seed in (5, 6)]
+    for context, state in zip(contexts, states):
+        system.GetInputPort("plant_state").FixValue(context, state)
+    port = system.GetOutputPort("wheel_left")
+    first, second = (port.Eval(context) for context in contexts)
+    assert np.abs(first - second).max() > 0.1
+    assert_allclose(port.Eval(contexts[0].Clone()), first)
+    system.GetInputPort("plant_state").FixValue(contexts[0], states[1])
+    assert_allclose(port.Eval(contexts[0]), second)
