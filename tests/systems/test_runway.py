@@ -61,10 +61,10 @@ def wheel_circle_distance(runway, p, a):
     along /= np.linalg.norm(along)
     up = np.cross(along, a)
     best = np.inf
-    for angle in np.linspace(-0.3, 0.3, 6001):
+    for angle in np.linspace(-0.3, 0.3, 2001):
         ray = -math.cos(angle) * up + math.sin(angle) * along
         length = 0.5
-        for _ in range(60):
+        for _ in range(15):
             q = p + length * ray
             length -= (q[2] - runway.height(q[0], q[1])) / ray[2]
         best = min(best, length)
@@ -83,7 +83,7 @@ def test_nearest_point_is_nearest_in_the_plane_of_the_wheel(profile, yaw, camber
     p = [-1.4, 0.7, 0.53]
     distance, *normal = runway.nearest(*p, *a)
     assert np.linalg.norm(normal) == pytest.approx(1.0, rel=1e-14)
-    assert distance == pytest.approx(wheel_circle_distance(runway, p, a), abs=1e-8)
+    assert distance == pytest.approx(wheel_circle_distance(runway, p, a), abs=1e-7)
 
 
 def test_flat_runway_is_the_ground_plane():
