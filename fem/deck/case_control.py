@@ -88,15 +88,55 @@ _NUMBERS = {
 }
 _NAMES = {
     name.upper(): name
-    for name in "analysis k2gg m2gg b2gg k2pp m2pp b2pp p2g resvec".split()
+    for name in [
+        "analysis",
+        "k2gg",
+        "m2gg",
+        "b2gg",
+        "k2pp",
+        "m2pp",
+        "b2pp",
+        "p2g",
+        "resvec",
+    ]
 }
 _TITLES = {"TITL": "title", "SUBT": "subtitle", "LABE": "label"}
 # Commands that would change the answer and that nothing here carries out.
 _REFUSED = frozenset(
-    """
-    AEROF APRES AUXCASE BC BOLTLD CMETHOD DEFORM DESGLB DESSUB DIVERG DYNRED FMETHOD GUST MFLUID MODSEL NLPARM NLSTEP NONLINEAR RGYRO RSDAMP SUBCOM
-    SUBSEQ SYM SYMCOM REPCASE TEMPERATURE TEMP TFL TRIM TSTRU TSTEPNL A2GG
-    """.split()
+    [
+        "AEROF",
+        "APRES",
+        "AUXCASE",
+        "BC",
+        "BOLTLD",
+        "CMETHOD",
+        "DEFORM",
+        "DESGLB",
+        "DESSUB",
+        "DIVERG",
+        "DYNRED",
+        "FMETHOD",
+        "GUST",
+        "MFLUID",
+        "MODSEL",
+        "NLPARM",
+        "NLSTEP",
+        "NONLINEAR",
+        "RGYRO",
+        "RSDAMP",
+        "SUBCOM",
+        "SUBSEQ",
+        "SYM",
+        "SYMCOM",
+        "REPCASE",
+        "TEMPERATURE",
+        "TEMP",
+        "TFL",
+        "TRIM",
+        "TSTRU",
+        "TSTEPNL",
+        "A2GG",
+    ]
 )
 _COMMAND = re.compile(r"\s*([A-Z0-9]+)\s*(\([^)]*\))?\s*[=,]?\s*(.*)$", re.S)
 
@@ -200,6 +240,7 @@ def _set(subcase: Subcase, name: str, value: int | str) -> Subcase:
 
 
 def _quantity(name: str) -> str | None:
+    """Quantity of an output command; four letters are enough."""
     return _QUANTITIES.get(name[:4]) if len(name) != 4 or name in _QUANTITIES else None
 
 

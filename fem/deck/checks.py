@@ -99,7 +99,19 @@ def _duplicates(deck: Deck, notices: list[str]) -> list[str]:
     return problems
 
 
-_SINGLE_PROPERTIES = "BAR BEAM ROD TUBE ELAS DAMP MASS VISC BUSH SHEAR SOLID".split()
+_SINGLE_PROPERTIES = [
+    "BAR",
+    "BEAM",
+    "ROD",
+    "TUBE",
+    "ELAS",
+    "DAMP",
+    "MASS",
+    "VISC",
+    "BUSH",
+    "SHEAR",
+    "SOLID",
+]
 
 
 def _identical(
@@ -213,8 +225,22 @@ def _loaded(tables: Tables) -> list[str]:
 
 
 STATIC_LOADS = tuple(
-    "FORCE MOMENT FORCE1 MOMENT1 FORCE2 MOMENT2 SLOAD PLOAD1 PLOAD2 PLOAD4 GRAV ACCEL1 "
-    "RFORCE SPCD".split()
+    [
+        "FORCE",
+        "MOMENT",
+        "FORCE1",
+        "MOMENT1",
+        "FORCE2",
+        "MOMENT2",
+        "SLOAD",
+        "PLOAD1",
+        "PLOAD2",
+        "PLOAD4",
+        "GRAV",
+        "ACCEL1",
+        "RFORCE",
+        "SPCD",
+    ]
 )
 
 

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.deck.cards import lists, masses
+from fem.deck.cards import lists, masses, shapes
 from fem.deck.cards.dmig import read_dmig
 from fem.deck.cards.finish import FINISHERS
 from fem.deck.catalogue import DEFAULTS_FOR
@@ -29,7 +29,7 @@ _SYNONYMS = {
     "NSML1": "NSML",
     **{f"CORD{form}{kind}": "CORD" for form in "12" for kind in "RCS"},
 }
-_LISTS = {**lists.READERS, **masses.READERS}
+_LISTS = {**lists.READERS, **masses.READERS, **shapes.READERS}
 
 
 def supported(name: str, external: Mapping[str, Any]) -> bool:
@@ -143,8 +143,32 @@ def _kinds() -> dict[str, dict[str, str]]:
 
 
 _INTEGERS = frozenset(
-    "line id eid pid mid sid tid cid rid g g0 g1 g2 g3 g4 g34 c1 c2 form gn refgrid "
-    "mcid delayid extrap".split()
+    [
+        "line",
+        "id",
+        "eid",
+        "pid",
+        "mid",
+        "sid",
+        "tid",
+        "cid",
+        "rid",
+        "g",
+        "g0",
+        "g1",
+        "g2",
+        "g3",
+        "g4",
+        "g34",
+        "c1",
+        "c2",
+        "form",
+        "gn",
+        "refgrid",
+        "mcid",
+        "delayid",
+        "extrap",
+    ]
 )
 _KINDS = _kinds()
 
