@@ -41,7 +41,7 @@ def read_direct(
     def chosen(name: str, factor: str) -> sp.csr_matrix | None:
         if not name:
             return None
-        scale = float(deck.params.get(factor, 1.0))
+        scale = float(deck.param(factor))
         return sp.csr_matrix(scale * dmig(deck, points, name))
 
     return DirectMatrices(

@@ -101,17 +101,17 @@ def _spread(
     return []
 
 
-def _chosen(block: TakesNonstructuralMass, kind: str, ids: Sequence[object]) -> Bool:
-    """(e,) which elements a card means; the word ALL stands for every id."""
+def _chosen(block: TakesNonstructuralMass, kind: str, ids: Sequence[int]) -> Bool:
+    """(e,) which elements a card means; id -1 (the word ALL) stands for every one."""
     if kind == "ELEMENT":
         numbers = block.id
     elif _SAME.get(kind, kind) == block.property_card:
         numbers = block.pid
     else:
         return np.zeros(len(block.id), bool)
-    if any(str(i).upper() == "ALL" for i in ids):
+    if -1 in ids:
         return np.ones(len(numbers), bool)
-    return np.isin(numbers, np.asarray(ids, np.int64))
+    return np.isin(numbers, ids)
 
 
 def _members(deck: "Deck", sid: int) -> list[int]:

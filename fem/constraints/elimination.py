@@ -227,8 +227,8 @@ def _substitute(
     """
     if not len(m):
         return given
-    among = sp.csr_matrix(given[:, m])
-    keep = np.ones(given.shape[1])
+    among = sp.csr_matrix(given.tocsc()[:, m])
+    keep = np.ones(points.size)
     keep[m] = 0.0
     result = sp.csr_matrix(given @ sp.diags(keep))
     if among.nnz:
@@ -263,7 +263,7 @@ def _solve_loops(
     problems = []
     for g in np.unique(group[looped]):
         rows = np.flatnonzero(group == g)
-        local = np.eye(len(rows)) - block[rows][:, rows].toarray()
+        local = np.eye(len(rows)) - _dense(block, rows)
         if np.linalg.cond(local) > 1e10:
             names = ", ".join(points.label(int(m[r])) for r in rows[:6])
             cards = ", ".join(dict.fromkeys(sources[r] for r in rows))
@@ -276,3 +276,9 @@ def _solve_loops(
         raise InputError(problems)
     solve = sp.csr_matrix(identity)
     return solve, sp.csr_matrix(solve @ (among - block))
+
+
+def _dense(matrix: sp.csr_matrix, rows: Int64) -> Float64:
+    """(k, k) part of a sparse matrix."""
+    part = sp.csr_matrix(matrix[rows])
+    return part[:, rows].toarray()

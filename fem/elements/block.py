@@ -72,7 +72,10 @@ class ElementBlock(Protocol):
         ...
 
     def structural_damping(self) -> Float64 | None:
-        """(e,) GE of the element's material or property, None where all are zero."""
+        """(e,) GE of the element's material or property, None where all are zero.
+
+        Elements whose parts differ (CBUSH) give Σ GE K themselves, (e, n, n).
+        """
         ...
 
     def mass(self, *, coupled: bool) -> Float64 | None:

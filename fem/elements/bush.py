@@ -117,7 +117,7 @@ def read_cbush(deck: "Deck", points: Points) -> list[Bushings]:
             motion=relative_motion(axes, place, place - between),
             k=_sixes(values, "ks"),
             b=_sixes(values, "bs"),
-            ge=_sixes(values, "ges"),
+            ge=_damping_factors(_sixes(values, "ges")),
             m=column(values, "mass"),
         )
     ]
@@ -192,6 +192,12 @@ def _places(rows: pd.DataFrame, points: Points, between: Float64) -> Float64:
     axes = points.frames.triads(np.maximum(ocid, 0), points.xyz[at_a])
     given = np.einsum("eij,ej->ei", axes, offset)
     return np.where((ocid >= 0)[:, None], given, share[:, None] * between)
+
+
+def _damping_factors(ge: Float64) -> Float64:
+    """GE1 alone holds for all six components, as Nastran's guide has it."""
+    alone = ~np.any(ge[:, 1:], axis=1)
+    return np.where(alone[:, None], ge[:, :1], ge)
 
 
 def _sixes(values: pd.DataFrame, name: str) -> Float64:
