@@ -38,6 +38,7 @@ class Shell(DenseBlock):
         property_card: "PSHELL" or "PCOMP".
         corners: (e, n, 3) grids in the basic frame.
         offset: (e,) ZOFFS.
+        normals: (e, n, 3) normals at the grids, zero where there is none.
         section: constitutive matrices in element axes.
         k6rot: PARAM K6ROT.
         properties: the properties in use.
@@ -49,6 +50,7 @@ class Shell(DenseBlock):
     property_card: str
     corners: Float64
     offset: Float64
+    normals: Float64
     section: ShellSection
     k6rot: float
     properties: tuple[ShellProperty, ...]
@@ -58,7 +60,7 @@ class Shell(DenseBlock):
     @property
     def shape(self) -> Facet:
         """Element axes and flat shape."""
-        return facet(self.corners, self.offset)
+        return facet(self.corners, self.offset, self.normals)
 
     @property
     def extent(self) -> Float64:

@@ -8,6 +8,7 @@ import pandas as pd
 from fem.elements.block import Float64, Int64
 from fem.elements.shell import Shell
 from fem.elements.shell_geometry import facet
+from fem.elements.shell_normals import deck_normals
 from fem.errors import InputError, nearest
 from fem.points import Points
 from fem.shell_properties import ShellProperty, read_shell_properties, sections
@@ -29,6 +30,7 @@ def read_shells(deck: "Deck", points: Points, card: str, corners: int) -> list[S
         return []
     _check_properties(deck, rows, card)
     properties = read_shell_properties(deck, rows["pid"])
+    normals = deck_normals(deck, points)
     kind = np.array([properties[int(p)].card for p in rows["pid"]])
     blocks, problems = [], []
     for name in ("PSHELL", "PCOMP"):
@@ -36,7 +38,9 @@ def read_shells(deck: "Deck", points: Points, card: str, corners: int) -> list[S
         if part.empty:
             continue
         try:
-            blocks.append(_block(deck, points, part, card, corners, properties))
+            blocks.append(
+                _block(deck, points, part, card, corners, properties, normals)
+            )
         except InputError as error:
             problems += error.problems
     if problems:
@@ -65,6 +69,7 @@ def _block(
     card: str,
     corners: int,
     properties: dict[int, ShellProperty],
+    normals: Float64,
 ) -> Shell:
     grids = rows[[f"g{k}" for k in range(1, corners + 1)]].to_numpy(np.int64)
     at = points.rows(grids)
@@ -82,6 +87,7 @@ def _block(
         property_card=used[0].card,
         corners=xyz,
         offset=column(rows, "zoffs"),
+        normals=normals[at],
         section=sections(list(used), which, angle, thickness),
         k6rot=float(deck.param("K6ROT")),
         properties=used,
