@@ -183,7 +183,7 @@ def test_one_tapered_beam_equals_many_prismatic_ones(model):
         bulk += [
             f"GRID,{k + 2},,{2 * (k + 1) / count:.6f},0.,0.",
             f"CBAR,{k + 1},{k + 1},{k + 1},{k + 2},0.,1.,0.",
-            "PBAR*,{},1,{:.12E},{:.12E}".format(k + 1, a, i1),
+            f"PBAR*,{k + 1},1,{a:.12E},{i1:.12E}",
             f"*,{i2:.12E},{j:.12E}",
         ]
     many = model("\n".join(bulk), "SPC=1")
