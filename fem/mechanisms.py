@@ -1,0 +1,158 @@
+"""Naming what moves when a stiffness matrix is singular.
+
+Motions without strain energy are found by inverse iteration on a slightly stiffened
+matrix, piece by piece of what hangs together. A motion counts where its energy is
+round-off compared to that of its parts, so that soft but sound structures pass.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+from scipy.sparse.csgraph import connected_components
+
+from fem.linear_solver import SingularMatrixError, SolverName, factorize
+from fem.modes import rigid_energy
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+# Stiffening relative to the diagonal, energy that counts as none, share that moves.
+_STIFFENING = 1e-9
+_NO_ENERGY = 1e-13
+_MOVES = 1e-3
+_SWEEPS = 4
+_FIRST_BLOCK = 12
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """Motions without strain energy of one connected piece.
+
+    Attributes:
+        rows: (k,) rows that move, ascending.
+        motions: (n, r) independent motions, largest entry 1.
+        whole: whether every row of the piece moves.
+    """
+
+    rows: Int64
+    motions: Float64
+    whole: bool
+
+
+def find_mechanisms(
+    stiffness: sp.csr_matrix,
+    *,
+    solver: SolverName | None = None,
+    mass: sp.csr_matrix | None = None,
+) -> list[Mechanism]:
+    """Motions of the free set that cost no energy, one entry per connected piece.
+
+    Args:
+        stiffness: (n, n) K, positive semi-definite.
+        solver: as in `factorize`.
+        mass: (n, n) M; given, motions that move mass are not counted (they are no
+            mechanism in a dynamic solution).
+    """
+    matrix = stiffness if mass is None else _dynamic(stiffness, mass)
+    count, piece = connected_components(matrix, directed=False)
+    motions = _null_motions(matrix, solver)
+    if motions.shape[1] == 0:
+        return []
+    found = []
+    moving = np.abs(motions) > _MOVES * np.abs(motions).max(axis=0)
+    for number in np.unique(piece[moving.any(axis=1)]) if count > 1 else [0]:
+        inside = piece == number
+        part = motions * inside[:, None]
+        part = part[:, np.abs(part).max(axis=0) > _MOVES]
+        rows = np.flatnonzero((np.abs(part) > _MOVES).any(axis=1))
+        if len(rows):
+            found.append(Mechanism(rows, part, len(rows) == int(inside.sum())))
+    return found
+
+
+def _dynamic(stiffness: sp.csr_matrix, mass: sp.csr_matrix) -> sp.csr_matrix:
+    """K with so much M that moving mass is not free of energy."""
+    k, m = stiffness.diagonal().max(initial=0.0), mass.diagonal().max(initial=0.0)
+    return sp.csr_matrix(stiffness + (k / m if m > 0.0 else 0.0) * mass)
+
+
+def _null_motions(matrix: sp.csr_matrix, solver: SolverName | None) -> Float64:
+    """(n, r) independent motions without energy, largest entry 1."""
+    n = len(matrix.indptr) - 1
+    diagonal = matrix.diagonal()
+    largest = diagonal.max(initial=0.0)
+    scale = np.where(diagonal > 0.0, diagonal, largest if largest > 0.0 else 1.0)
+    stiffened = sp.csr_matrix(matrix + _STIFFENING * sp.diags(scale))
+    try:
+        factor = factorize(stiffened, kind="symmetric", solver=solver)
+    except SingularMatrixError:
+        return np.zeros((n, 0))
+    with factor:
+        block = min(_FIRST_BLOCK, n)
+        while True:
+            motions = _smallest(factor.solve, matrix, scale, block)
+            if motions.shape[1] < block or block == n:
+                return motions
+            block = min(4 * block, n)
+
+
+def _smallest(
+    solve: Callable[[Float64], Float64],
+    matrix: sp.csr_matrix,
+    scale: Float64,
+    block: int,
+) -> Float64:
+    """Motions without energy in the span of inverse iterates."""
+    vectors = np.random.default_rng(1).normal(size=(len(scale), block))
+    for _ in range(_SWEEPS):
+        vectors = solve(scale[:, None] * vectors)
+        vectors, _ = np.linalg.qr(np.sqrt(scale)[:, None] * vectors)
+        vectors /= np.sqrt(scale)[:, None]
+    reduced = vectors.T @ (matrix @ vectors)
+    _, rotation = np.linalg.eigh(0.5 * (reduced + reduced.T))
+    vectors = vectors @ rotation
+    free = rigid_energy(matrix, vectors) < _NO_ENERGY
+    vectors = vectors[:, free]
+    return vectors / np.abs(vectors).max(axis=0, initial=1e-300)
+
+
+def describe(
+    mechanisms: list[Mechanism], label: Callable[[int], str], *, most: int = 12
+) -> list[str]:
+    """One line per mechanism: how many motions, and what moves.
+
+    Args:
+        mechanisms: from `find_mechanisms`.
+        label: name of a row, "grid 12 T3".
+        most: names per line.
+    """
+    lines = []
+    for mechanism in mechanisms:
+        count = mechanism.motions.shape[1]
+        what = "motion" if count == 1 else "motions"
+        where = (
+            "a whole unconnected piece or structure"
+            if mechanism.whole
+            else f"{len(mechanism.rows)} freedoms"
+        )
+        names = [label(int(row)) for row in mechanism.rows[:most]]
+        more = ", ..." if len(mechanism.rows) > most else ""
+        lines.append(
+            f"{count} {what} without stiffness of {where}: {_grouped(names)}{more}"
+        )
+    return lines
+
+
+def _grouped(names: list[str]) -> str:
+    """ "grid 4 T1 T2, grid 5 T1" from labels of single freedoms."""
+    points: dict[str, list[str]] = {}
+    for name in names:
+        head, _, component = name.rpartition(" ")
+        if head in ("", "scalar point"):
+            points[name] = []
+        else:
+            points.setdefault(head, []).append(component)
+    return ", ".join(" ".join([point, *parts]) for point, parts in points.items())

@@ -1,0 +1,395 @@
+"""`Structure`: a deck and one of its subcases, put together for the solutions.
+
+Everything is computed when it is first asked for, and kept. The matrices on the free
+set (f) are plain scipy.sparse matrices, so that any function of `fem` that works on
+matrices works on a structure, on parts of it, or on somebody else's matrices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from fem.assembly import Matrices, assemble
+from fem.constraints.autospc import Singularities, find_singularities
+from fem.constraints.elimination import Elimination, eliminate
+from fem.damping import Damping
+from fem.direct_input import read_direct
+from fem.elements.registry import element_notices, read_elements
+from fem.errors import InputError
+from fem.mechanisms import describe, find_mechanisms
+from fem.points import Points
+from fem.weight import Weight, rigid_modes, weigh
+
+if TYPE_CHECKING:
+    from fem.deck.case_control import Subcase
+    from fem.deck.deck import Deck
+    from fem.elements.block import ElementBlock
+    from fem.linear_solver import SolverName
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+
+class Structure:
+    """A finite-element model with the constraints of one subcase.
+
+    Args:
+        deck: the deck.
+        subcase: its subcase; None: the first.
+
+    Attributes:
+        deck, subcase: as given.
+        points: grids and scalar points, numbering of the g-set.
+    """
+
+    def __init__(self, deck: Deck, subcase: Subcase | None = None) -> None:
+        self.deck = deck
+        self.subcase = subcase if subcase is not None else deck.case_control[0]
+        self.points = Points.from_deck(deck)
+
+    @classmethod
+    def from_deck(cls, deck: Deck, subcase: int | None = None) -> Structure:
+        """Structure of a deck with the constraints of a subcase.
+
+        Args:
+            deck: from `fem.read_deck`.
+            subcase: its id; None: the first.
+
+        Raises:
+            InputError: no such subcase, or coordinate systems that cannot be placed.
+        """
+        return cls(deck, None if subcase is None else deck.subcase(subcase))
+
+    def with_subcase(self, subcase: Subcase) -> Structure:
+        """The same model under another subcase; what does not change is shared."""
+        other = Structure.__new__(Structure)
+        other.deck, other.subcase, other.points = self.deck, subcase, self.points
+        same_model = all(
+            getattr(subcase, name) == getattr(self.subcase, name)
+            for name in ("nsm", "k2gg", "m2gg", "b2gg")
+        )
+        same_support = same_model and all(
+            getattr(subcase, name) == getattr(self.subcase, name)
+            for name in ("spc", "mpc")
+        )
+        for names, shared in (
+            (_OF_MODEL, same_model),
+            (_OF_SUPPORT, same_support),
+        ):
+            if shared:
+                for name in names & self.__dict__.keys():
+                    other.__dict__[name] = self.__dict__[name]
+        return other
+
+    # -- the model ------------------------------------------------------------------
+
+    @cached_property
+    def blocks(self) -> list[ElementBlock]:
+        """All elements.
+
+        Raises:
+            InputError: whatever is wrong with any of them.
+        """
+        return read_elements(self.deck, self.points, nsm=self.subcase.nsm)
+
+    @cached_property
+    def matrices(self) -> Matrices:
+        """K, M, B and K4 of the g-set."""
+        case = self.subcase
+        direct = read_direct(
+            self.deck, self.points, k2gg=case.k2gg, m2gg=case.m2gg, b2gg=case.b2gg
+        )
+        return assemble(
+            self.points,
+            self.blocks,
+            coupled=_number(self.deck, "COUPMASS") > 0,
+            wtmass=_number(self.deck, "WTMASS"),
+            direct=direct,
+        )
+
+    @cached_property
+    def weight(self) -> Weight:
+        """Mass, centre of gravity and inertia (PARAM GRDPNT: reference grid)."""
+        grid = int(_number(self.deck, "GRDPNT"))
+        reference = self.points.xyz[self.points.rows(grid)] if grid > 0 else np.zeros(3)
+        return weigh(
+            self.points,
+            self.matrices.mass,
+            reference=reference,
+            wtmass=_number(self.deck, "WTMASS"),
+        )
+
+    # -- constraints ----------------------------------------------------------------
+
+    @cached_property
+    def _support(self) -> tuple[Elimination, sp.csr_matrix, Singularities | None]:
+        """Elimination after AUTOSPC, K_ff, and what AUTOSPC found."""
+        elimination = eliminate(
+            self.deck, self.points, spc=self.subcase.spc, mpc=self.subcase.mpc
+        )
+        # Generalised freedoms have no stiffness before the reduction gives them one.
+        elimination = elimination.with_fixed(
+            np.setdiff1d(self.generalised_dof, elimination.s)
+        )
+        reduced = elimination.reduce(self.matrices.stiffness)
+        if str(self.deck.param("AUTOSPC")).upper().startswith("N"):
+            return elimination, reduced, None
+        found = find_singularities(
+            reduced, elimination, self.points, epzero=_number(self.deck, "EPZERO")
+        )
+        if len(found.dof):
+            keep = ~np.isin(elimination.f, found.dof)
+            elimination = elimination.with_fixed(found.dof)
+            reduced = sp.csr_matrix(reduced[keep][:, keep])
+        return elimination, reduced, found
+
+    @property
+    def elimination(self) -> Elimination:
+        """Constraints of the subcase, AUTOSPC included: u_g = T u_f + u_0."""
+        return self._support[0]
+
+    @property
+    def autospc(self) -> Singularities | None:
+        """Freedoms that AUTOSPC constrained; None where it is switched off."""
+        return self._support[2]
+
+    @cached_property
+    def generalised_dof(self) -> Int64:
+        """(q,) rows of the g-set that QSET reserves for generalised coordinates."""
+        return _set_rows(self.deck, self.points, "QSET")
+
+    @cached_property
+    def analysis_dof(self) -> Int64:
+        """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
+        rows = _set_rows(self.deck, self.points, "ASET")
+        return np.setdiff1d(rows, self.generalised_dof)
+
+    @cached_property
+    def support_dof(self) -> Int64:
+        """(r,) rows of the g-set that SUPORT names."""
+        return _set_rows(self.deck, self.points, "SUPORT")
+
+    def free_rows(self, dof: npt.ArrayLike, card: str) -> Int64:
+        """Positions of rows of the g-set in the f-set.
+
+        Raises:
+            InputError: rows that are constrained or dependent; `card` names their set.
+        """
+        dof = np.asarray(dof, dtype=np.int64)
+        f = self.elimination.f
+        at = np.searchsorted(f, dof)
+        at_safe = np.minimum(at, max(len(f) - 1, 0))
+        bad = (
+            (at >= len(f)) | (f[at_safe] != dof) if len(f) else np.ones(len(dof), bool)
+        )
+        if bad.any():
+            raise InputError(
+                f"{card} names {self.points.label(int(d))}, which is constrained or "
+                "dependent; expected a free one"
+                for d in dof[bad][:20]
+            )
+        return at
+
+    # -- matrices of the free set -----------------------------------------------------
+
+    @property
+    def stiffness(self) -> sp.csr_matrix:
+        """(f, f) K."""
+        return self._support[1]
+
+    @cached_property
+    def mass(self) -> sp.csr_matrix:
+        """(f, f) M."""
+        return self.elimination.reduce(self.matrices.mass)
+
+    @cached_property
+    def damping(self) -> Damping:
+        """B = B1 + (G/W3 + ALPHA2) K + ALPHA1 M + K4/W4, for transients."""
+        param = {name: _number(self.deck, name) for name in _DAMPING_PARAMETERS}
+        stiff = param["ALPHA2"]
+        if param["W3"] > 0.0:
+            stiff += param["G"] / param["W3"]
+        other = self.elimination.reduce(self.matrices.damping)
+        if param["W4"] > 0.0:
+            elements = Damping.of(
+                sp.csr_matrix(
+                    self.elimination.reduce(self.matrices.structural_damping)
+                    / param["W4"]
+                ),
+                self.stiffness,
+            )
+            stiff += elements.stiffness_factor
+            if elements.other is not None:
+                other = sp.csr_matrix(other + elements.other)
+        return Damping(
+            stiffness_factor=stiff,
+            mass_factor=param["ALPHA1"],
+            other=other if other.nnz else None,
+        )
+
+    @cached_property
+    def rigid_body(self) -> Float64:
+        """(f, 6) motions of the free set as a rigid body about the centre of gravity.
+
+        Motions that constraints prevent cost energy; `normal_modes` sorts them out.
+        """
+        return rigid_modes(self.points, self.weight.center)[self.elimination.f]
+
+    # -- between the sets -------------------------------------------------------------
+
+    @property
+    def size(self) -> int:
+        """Number f of free freedoms."""
+        return len(self.elimination.f)
+
+    def displacement(self, u_f: Float64) -> Float64:
+        """(g,) or (g, k) displacements in displacement frames from those of the f-set.
+
+        Enforced displacements of the subcase are included.
+        """
+        u_g = self.elimination.T @ u_f
+        u_0 = self.elimination.u_0
+        return u_g + (u_0 if u_g.ndim == 1 else u_0[:, None])
+
+    def shape(self, u_f: Float64) -> Float64:
+        """As `displacement`, without enforced displacements: modes, velocities."""
+        return self.elimination.T @ u_f
+
+    def load(self, p_g: Float64 | sp.spmatrix | sp.sparray) -> sp.csr_matrix | Float64:
+        """Loads on the f-set from loads on the g-set, Tᵀ P; sparse stays sparse."""
+        return self.elimination.T.T @ p_g
+
+    def operator(
+        self,
+        grid_ids: npt.ArrayLike,
+        components: Sequence[int] = (1, 2, 3, 4, 5, 6),
+        *,
+        frame: Literal["displacement", "basic"] = "displacement",
+    ) -> sp.csr_matrix:
+        """Rows that give displacements of grids from u_f.
+
+        Args:
+            grid_ids: (k,) grids.
+            components: (c,) of 1 to 6, the same for all.
+            frame: axes of the displacements: each grid's CD, or the basic frame.
+
+        Returns:
+            (k c, f), grid by grid; its transpose turns forces at the grids into loads.
+        """
+        ids = np.atleast_1d(np.asarray(grid_ids, dtype=np.int64))
+        dof = self.points.dof(ids[:, None], np.asarray(components)[None, :]).reshape(-1)
+        if frame == "displacement":
+            return sp.csr_matrix(self.elimination.T[dof])
+        rows = sp.csr_matrix(self.points.basic_rotation()[dof])
+        return sp.csr_matrix(rows @ self.elimination.T)
+
+    # -- messages ---------------------------------------------------------------------
+
+    @cached_property
+    def notices(self) -> list[str]:
+        """What the user should know about this model, in words."""
+        lines = [*self.deck.notices, *element_notices(self.deck)]
+        if self.autospc is not None and len(self.autospc.dof):
+            names = self.autospc.lines(self.points)
+            lines.append(
+                f"AUTOSPC constrained {len(names)} freedoms without stiffness: "
+                + "; ".join(names[:6])
+                + (f"; ... ({len(names)} in all)" if len(names) > 6 else "")
+            )
+        return lines
+
+    @cached_property
+    def damping_notices(self) -> list[str]:
+        """Damping that the deck gives and that a transient does not use."""
+        lines = []
+        g = _number(self.deck, "G")
+        if g != 0.0 and _number(self.deck, "W3") == 0.0:
+            lines.append(
+                f"PARAM,G,{g:g} has no effect in a transient because PARAM,W3 is 0 or "
+                "absent; give PARAM,W3 (rad/s) to make it the viscous damping G/W3 K"
+            )
+        if self.matrices.structural_damping.nnz and _number(self.deck, "W4") == 0.0:
+            lines.append(
+                "element damping (GE) has no effect in a transient because PARAM,W4 is "
+                "0 or absent; give PARAM,W4 (rad/s) to make it the viscous damping "
+                "GE/W4 K"
+            )
+        return lines
+
+    def label(self, row: int) -> str:
+        """Name of a row of the f-set: "grid 12 T3"."""
+        return self.points.label(int(self.elimination.f[row]))
+
+    def singular_message(
+        self, *, dynamic: bool = False, solver: SolverName | None = None
+    ) -> list[str]:
+        """Lines that name what moves without stiffness; empty where nothing does.
+
+        Args:
+            dynamic: leave out motions that move mass.
+            solver: as in `fem.linear_solver.factorize`.
+        """
+        mechanisms = find_mechanisms(
+            self.stiffness, solver=solver, mass=self.mass if dynamic else None
+        )
+        return describe(mechanisms, self.label)
+
+    def guarded(
+        self, function: Callable[[], object], *, dynamic: bool, error: type[Exception]
+    ) -> object:
+        """Call a solution; its numerical failure becomes an error that names grids.
+
+        Raises:
+            InputError: `function` raised `error`; the message names what moves freely.
+        """
+        try:
+            return function()
+        except error as caught:
+            lines = self.singular_message(dynamic=dynamic)
+            if not lines:
+                row = getattr(caught, "row", None)
+                at = "" if row is None else f" at {self.label(row)}"
+                lines = [f"the stiffness is not positive definite{at}: {caught}"]
+            raise InputError(
+                [f"{self.deck.path}: the structure is singular", *lines]
+            ) from None
+
+
+_OF_MODEL = frozenset(
+    {"blocks", "matrices", "weight", "generalised_dof", "analysis_dof", "support_dof"}
+)
+_OF_SUPPORT = frozenset(
+    {"_support", "mass", "damping", "rigid_body", "notices", "damping_notices"}
+)
+_DAMPING_PARAMETERS = ("G", "W3", "W4", "ALPHA1", "ALPHA2")
+
+
+def _number(deck: Deck, name: str) -> float:
+    """A parameter as a number."""
+    return float(deck.param(name))
+
+
+def _set_rows(deck: Deck, points: Points, card: str) -> Int64:
+    """Rows of the g-set that ASET, QSET or SUPORT cards name, ascending.
+
+    Raises:
+        InputError: points that are not defined.
+    """
+    table = deck.cards[card]
+    rows: list[Int64] = []
+    problems: list[str] = []
+    for point, digits in zip(table["id"], table["c"]):
+        components = [int(c) for c in str(digits) if c.isdigit()] or [0]
+        try:
+            rows.append(points.dof(int(point), components))
+        except InputError as error:
+            problems += [f"{card}: {text}" for text in error.problems]
+    if problems:
+        raise InputError(problems)
+    return np.unique(np.concatenate(rows)) if rows else np.zeros(0, dtype=np.int64)
