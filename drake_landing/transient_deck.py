@@ -14,7 +14,9 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.handover import AttachmentLoads
+from fem.deck.case_control import Subcase
 from fem.deck.lexer import read_cards
+from fem.deck.sections import split_sections
 from fem.deck.source import Line, read_source
 from fem.errors import InputError
 
@@ -47,7 +49,8 @@ def transient_deck(
     Raises:
         InputError: the source cannot be read.
     """
-    bulk = bulk_lines(read_source(source).lines)
+    sections = split_sections(read_source(source).lines, str(source))
+    bulk = _until_enddata(sections.bulk)
     components = np.concatenate(
         [
             np.einsum("kba,tkb->tka", rotation, loads.load[..., :3]),
@@ -57,6 +60,11 @@ def transient_deck(
     )
     first = _free_ids(bulk, 2 + components[0].size)
     yield from ("SOL 109", "CEND", f"TITLE = {title[:60].upper()}", *selections)
+    yield from (
+        line.text
+        for line in sections.case_control
+        if line.text.upper().split(",")[0].strip() == "PARAM"
+    )
     yield from _set_lines(1, sorted(output))
     yield from ("DISPLACEMENT = 1", "ACCELERATION = 1")
     yield from (f"DLOAD = {first}", f"TSTEP = {first}", "BEGIN BULK")
@@ -75,28 +83,32 @@ def write_transient_deck(path: Path, lines: Iterable[str]) -> None:
     temporary.replace(path)
 
 
-def bulk_lines(lines: Sequence[Line]) -> list[Line]:
-    """The bulk data section, without BEGIN BULK and ENDDATA.
+def model_selections(subcase: Subcase) -> list[str]:
+    """Case control lines of what belongs to the model rather than to its loading."""
+    names = ("spc", "mpc", "nsm", "suport1", "k2gg", "m2gg", "b2gg")
+    names += ("k2pp", "m2pp", "b2pp")
+    return [
+        f"{name.upper()} = {getattr(subcase, name)}"
+        for name in names
+        if getattr(subcase, name)
+    ]
 
-    A deck without BEGIN BULK and CEND is bulk data as a whole.
+
+def _until_enddata(lines: Sequence[Line]) -> list[Line]:
+    """The bulk data without ENDDATA.
 
     Raises:
-        InputError: an INCLUDE of the bulk data is not there.
+        InputError: an INCLUDE is not there.
     """
-    words = [line.text.split("$")[0].upper().split() for line in lines]
-    begin = next((i for i, w in enumerate(words) if w[:2] == ["BEGIN", "BULK"]), None)
-    start = 0 if begin is None else begin + 1
-    end = next(
-        (i for i in range(start, len(words)) if words[i][:1] == ["ENDDATA"]), len(words)
-    )
-    bulk = list(lines[start:end])
-    missing = [line for line in bulk if line.missing]
+    words = [line.text[:8].upper().strip() for line in lines]
+    end = words.index("ENDDATA") if "ENDDATA" in words else len(words)
+    missing = [line for line in lines[:end] if line.missing]
     if missing:
         raise InputError(
             f"{line.file}:{line.number}: the file of {line.text} is not there"
             for line in missing
         )
-    return bulk
+    return list(lines[:end])
 
 
 def _free_ids(bulk: Sequence[Line], count: int) -> int:

@@ -27,16 +27,20 @@ _ACROSS = 3  # panels side by side
 def attachment_loads(history: LandingHistory) -> str:
     """Forces and moments of each gear on the airframe, components in B."""
     gears = list(history.attachment)
+    kinds = (ATTACHMENT[:3], ATTACHMENT[3:])
+    scales = [
+        common_scale(
+            [t[n] for t in history.attachment.values() for n in k], UNITS[k[0]]
+        )
+        for k in kinds
+    ]
     pictures = []
     for group in _groups(gears):
         with panels(2, len(group), height=2.2) as (figure, grid):
             for column, gear in enumerate(group):
                 table = history.attachment[gear]
-                for row, names in enumerate((ATTACHMENT[:3], ATTACHMENT[3:])):
+                for row, (names, (factor, unit)) in enumerate(zip(kinds, scales)):
                     axes = grid[row][column]
-                    factor, unit = common_scale(
-                        [table[n] for n in names], UNITS[names[0]]
-                    )
                     for name, color in zip(names, SERIES):
                         values = factor * table[name]
                         curve(axes, table.index, values, color, name[1])
@@ -82,12 +86,12 @@ def struts_and_tyres(history: LandingHistory) -> str:
 def force_over_stroke(history: LandingHistory) -> str:
     """The loop of each shock absorber; its area is the energy it takes."""
     gears = list(history.strut)
+    factor, unit = common_scale([t["force"] for t in history.strut.values()], "N")
     pictures = []
     for group in _groups(gears):
         with panels(1, len(group), height=2.3) as (figure, grid):
             for i, gear in enumerate(group):
                 table, axes = history.strut[gear], grid[0][i]
-                factor, unit = common_scale([table["force"]], "N")
                 curve(axes, table["stroke"], factor * table["force"], SERIES[i])
                 finish(axes, f"{words(gear)}: force", unit, x="stroke, m")
             pictures.append(svg(figure, f"force over stroke of {', '.join(group)}"))
@@ -117,17 +121,31 @@ def accelerations(
 
 
 def spectra(
-    point: str, frequency: Float64, multibody: Float64, transient: Float64
+    frequency: Float64, multibody: dict[str, Float64], transient: dict[str, Float64]
 ) -> str:
-    """Shock response spectra of the vertical acceleration of one point."""
-    with panels(1, 1, height=2.3) as (figure, grid):
-        axes = grid[0][0]
-        curve(axes, frequency, transient, TRANSIENT, "direct transient")
-        curve(axes, frequency, multibody, MULTIBODY, "multibody")
-        axes.set_xscale("log")
-        title = f"{words(point)}, z: shock response spectrum (Q = 10)"
-        finish(axes, title, "m/s²", x="frequency of the oscillator, Hz")
-        return svg(figure, f"shock response spectrum of {point}")
+    """Shock response spectra of the vertical acceleration, point by point.
+
+    Args:
+        frequency: (f,) of the oscillators, Hz.
+        multibody, transient: point -> (f,) m/s².
+    """
+    rows = -(-len(transient) // 2)
+    with panels(rows, 2, height=2.3) as (figure, grid):
+        places = [axes for row in grid for axes in row]
+        for i, (axes, point) in enumerate(zip(places, transient)):
+            curve(axes, frequency, transient[point], TRANSIENT, "direct transient")
+            curve(axes, frequency, multibody[point], MULTIBODY, "multibody")
+            axes.set_xscale("log")
+            axes.set_xticks([2, 5, 10, 20, 50, 100, 200])
+            axes.xaxis.set_major_formatter("{x:g}")
+            axes.xaxis.minorticks_off()
+            below = i + 2 >= len(transient)
+            label = "frequency of the oscillator, Hz" if below else None
+            finish(axes, f"{words(point)}, z", "m/s²", x=label, legend=i == 0)
+            axes.tick_params(labelbottom=below)
+        for axes in places[len(transient) :]:
+            axes.set_visible(False)
+        return svg(figure, "shock response spectra")
 
 
 def energy(history: LandingHistory) -> str:

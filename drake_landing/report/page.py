@@ -95,7 +95,7 @@ def table_block(
 def pairs_block(pairs: Iterable[tuple[str, str]], caption: str = "") -> Block:
     """A table of two columns: what, and its value."""
     rows = [[Cell(text=what), Cell(text=value)] for what, value in pairs]
-    return Block(heads=("", ""), rows=rows, caption=caption)
+    return Block(rows=rows, caption=caption)
 
 
 def _cell(value: Any, spec: str) -> Cell:

@@ -55,15 +55,13 @@ _STYLE = {
 
 @contextmanager
 def panels(
-    rows: int, columns: int, *, height: float = 2.1, share_y: bool = False
+    rows: int, columns: int, *, height: float = 2.1
 ) -> Iterator[tuple[Figure, list[list[Axes]]]]:
     """A figure with a grid of panels, in the style of the report."""
     with mpl.rc_context(_STYLE):
         figure = Figure(figsize=(WIDTH, height * rows + 0.35), layout="constrained")
         FigureCanvasSVG(figure)
-        grid = figure.subplots(
-            rows, columns, squeeze=False, sharex=True, sharey=share_y
-        )
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=True)
         yield figure, grid.tolist()
 
 
@@ -124,17 +122,9 @@ def finish(
         axes.legend(handles, labels, loc="best", ncols=min(3, len(labels)))
 
 
-def scaled(values: npt.ArrayLike, unit: str) -> tuple[Float64, str]:
-    """Values in N, N m or J, in thousands where they are large."""
-    array = np.asarray(values, dtype=float)
-    if unit in ("N", "N m", "J") and np.abs(array).max(initial=0.0) >= 1e4:
-        return array / 1e3, f"k{unit}"
-    return array, unit
-
-
 def common_scale(series: Sequence[npt.ArrayLike], unit: str) -> tuple[float, str]:
     """Factor and unit that suit all series of one panel."""
     largest = max((np.abs(np.asarray(s)).max(initial=0.0) for s in series), default=0.0)
-    if unit in ("N", "N m", "J") and largest >= 1e4:
+    if unit in ("N", "N m", "J") and largest >= 1e3:
         return 1e-3, f"k{unit}"
     return 1.0, unit

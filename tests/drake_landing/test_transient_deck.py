@@ -7,7 +7,12 @@ import pytest
 from pyNastran.bdf.bdf import BDF
 
 from drake_landing.handover import AttachmentLoads
-from drake_landing.transient_deck import transient_deck, write_transient_deck
+from drake_landing.transient_deck import (
+    model_selections,
+    transient_deck,
+    write_transient_deck,
+)
+from fem.deck.case_control import Subcase
 from fem.errors import InputError
 
 TINY = Path(__file__).with_name("tiny_aircraft.bdf")
@@ -74,7 +79,7 @@ def test_loads_are_in_the_displacement_frame(
 ) -> None:
     model = written(tmp_path, TINY, loads)
     # the frame of the fixture is that of the deck
-    assert model.coords[10].beta().T == pytest.approx(R_B10)
+    assert pytest.approx(R_B10) == model.coords[10].beta().T
     for part in (0, 3):
         found = np.column_stack([history(model, 51, part + c)[1] for c in (1, 2, 3)])
         expected = loads.load[:, 0, part : part + 3] @ R_B10
@@ -102,12 +107,20 @@ def test_includes_are_copied_and_ids_do_not_collide(
     bulk += "TSTEP,900001,10,.1,1\nFORCE,900004,1,,1.,1.,0.,0.\n"
     (tmp_path / "sub/bulk.inc").write_text(bulk)
     source = tmp_path / "main.bdf"
-    source.write_text("INCLUDE 'sub/bulk.inc'\n")
+    control = "SOL 103\nCEND\nPARAM,WTMASS,1.\nMETHOD=1\nBEGIN BULK\n"
+    source.write_text(control + "INCLUDE 'sub/bulk.inc'\n")
     model = written(tmp_path, source, loads)
     (tmp_path / "sub/bulk.inc").unlink()  # the deck needs it no more
     assert model.case_control_deck.subcases[0]["TSTEP"][0] > 900004
     assert len(model.nodes) == 23
+    text = (tmp_path / "landing.bdf").read_text()
+    assert "PARAM,WTMASS,1." in text.split("BEGIN BULK")[0]
     assert not list(tmp_path.glob("*.part"))
+
+
+def test_selections_of_the_model_are_kept() -> None:
+    subcase = Subcase(spc=3, method=1, load=7, b2gg="BMAT", tstep=2)
+    assert model_selections(subcase) == ["SPC = 3", "B2GG = BMAT"]
 
 
 def test_missing_include_and_silent_loads_are_input_errors(

@@ -1,0 +1,155 @@
+"""Command line: `drake-landing`.
+
+Exit status 0 on success, 2 on bad input (one message on standard error), 1 on an
+internal failure. Heavy packages are imported by the commands that need them.
+"""
+
+import os
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+if TYPE_CHECKING:
+    from drake_landing.case import Case
+    from drake_landing.process import ProcessResult
+
+app = typer.Typer(
+    name="drake-landing",
+    help="Aircraft landing loads: multibody simulation of the touchdown in Drake, then "
+    "the direct transient response of the full Nastran model.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", help="folder of the results; default out/<case name>"),
+]
+
+
+@app.command()
+def demo(out: Out = None) -> None:
+    """The conceptual aircraft touches down: the whole process, no input needed."""
+    from importlib.resources import files
+
+    from drake_landing.cases_io import parse_case
+
+    text = files("drake_landing").joinpath("demo.yaml").read_text(encoding="utf-8")
+    _run(parse_case(text, file="demo.yaml"), out)
+
+
+@app.command()
+def run(
+    case: Annotated[Path, typer.Argument(help="case file (YAML)")], out: Out = None
+) -> None:
+    """The whole process for a case: landing, direct transient, comparison, report."""
+    from drake_landing.cases_io import load_case
+
+    _run(load_case(case), out)
+
+
+@app.command()
+def check(
+    case: Annotated[Path | None, typer.Argument(help="case file (YAML)")] = None,
+    schema: Annotated[
+        bool, typer.Option("--schema", help="print the JSON schema of case files")
+    ] = False,
+) -> None:
+    """Validates and explains a case without running it."""
+    from drake_landing.cases_io import case_text, load_case, schema_text
+    from fem.errors import InputError
+
+    if schema:
+        print(schema_text())
+        return
+    if case is None:
+        raise InputError("check: give a case file, or --schema")
+    checked = load_case(case)
+    print(case_text(checked), end="")
+    from drake_landing.explain import explain
+
+    print(f"\n{explain(checked)}")
+
+
+@app.command()
+def model(
+    level: Annotated[str, typer.Argument(help="con, pre or full")],
+    out: Annotated[Path, typer.Option("--out", help="bulk-data file to write")],
+) -> None:
+    """Writes a reference aircraft as a Nastran deck."""
+    from drake_landing.inputs import write_model_deck
+
+    print(write_model_deck(level, out))
+
+
+def _run(case: "Case", out: Path | None) -> None:
+    from drake_landing.process import run_case
+    from drake_landing.progress import reporter
+
+    folder = out or Path("out", case.name)
+    with reporter() as progress:
+        result = run_case(case, folder, progress)
+    print(_summary(result, folder))
+
+
+def _summary(result: "ProcessResult", folder: Path) -> str:
+    from drake_landing.summary import key_figures, story
+
+    figures = key_figures(result)
+    width = max(len(name) for name, _ in figures)
+    lines = [story(result), ""]
+    lines += [f"  {name:<{width}}  {value}" for name, value in figures]
+    if result.notices:
+        lines += ["", *(f"note: {notice}" for notice in result.notices)]
+    return "\n".join([*lines, "", f"report: {folder / 'report.html'}"])
+
+
+def main() -> None:
+    """Entry point: runs the command and turns errors into exit states."""
+    sys.exit(guarded(app))
+
+
+def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
+    """Exit status of a command; errors become one message on standard error."""
+    from fem.errors import InputError
+
+    try:
+        result = command(args=args, standalone_mode=False)
+    except InputError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except typer.Exit as stop:
+        return stop.exit_code
+    except (KeyboardInterrupt, typer.Abort):
+        print("interrupted", file=sys.stderr)
+        return 130
+    except OSError as error:
+        print(f"error: {_os_problem(error)}", file=sys.stderr)
+        return 2
+    except Exception as error:
+        if (show := getattr(error, "show", None)) is not None:  # usage, from click
+            show(file=sys.stderr)
+            return 2
+        return _internal_failure(error)
+    return result if isinstance(result, int) else 0
+
+
+def _os_problem(error: OSError) -> str:
+    place = f"{error.filename}: " if error.filename else ""
+    return place + (error.strerror or str(error))
+
+
+def _internal_failure(error: Exception) -> int:
+    """A bug: one line for the user, the traceback on request."""
+    print(
+        f"internal failure: {type(error).__name__}: {error}\n"
+        "(set DRAKE_LANDING_TRACEBACK=1 for the traceback)",
+        file=sys.stderr,
+    )
+    if os.environ.get("DRAKE_LANDING_TRACEBACK"):
+        raise error
+    return 1

@@ -1,0 +1,219 @@
+"""The report of one landing: which pictures and tables, in which order."""
+
+import platform
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from drake_landing.cases_io import case_text
+from drake_landing.comparison import NEGLIGIBLE, shock_response_spectrum
+from drake_landing.report import figures
+from drake_landing.report.page import (
+    Block,
+    Page,
+    Section,
+    pairs_block,
+    table_block,
+    write_page,
+)
+from drake_landing.results import versions
+from drake_landing.summary import key_figures, mode_count, story
+
+if TYPE_CHECKING:
+    from drake_landing.process import ProcessResult
+
+_SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
+
+_AGREEMENT = {
+    "point": "point",
+    "axis": "axis",
+    "peak_fe": "peak, transient m/s²",
+    "peak_mbs": "peak, multibody m/s²",
+    "peak_error": "peak error",
+    "rms_error": "rms difference",
+    "correlation": "correlation",
+    "sprague_geers": "Sprague-Geers",
+}
+_AGREEMENT_FORMATS = {
+    **dict.fromkeys(("peak_fe", "peak_mbs"), ".3f"),
+    **dict.fromkeys(("peak_error", "rms_error", "sprague_geers"), ".2%"),
+    "correlation": ".4f",
+}
+
+
+def write_report(path: Path, result: "ProcessResult") -> None:
+    """Writes `report.html`."""
+    case = result.case
+    write_page(
+        path,
+        Page(
+            name=case.name,
+            title=case.title or f"{result.aircraft.name}: landing",
+            story=story(result),
+            key_figures=key_figures(result),
+            notices=result.notices,
+            sections=list(_sections(result)),
+            footer="drake-landing "
+            + ", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
+            + f", Python {platform.python_version()}. SI units.",
+        ),
+    )
+
+
+def _sections(result: "ProcessResult") -> Iterator[Section]:
+    yield Section(id="case", title="Case", blocks=[pairs_block(_case_pairs(result))])
+    yield Section(
+        id="gears",
+        title="Landing gears",
+        text="Tyre loads are those of the runway on the tyres of a gear: drag points "
+        "aft. The wheels stand still at touchdown and are spun up by the drag.",
+        blocks=[
+            Block(svg=figures.struts_and_tyres(result.history)),
+            Block(svg=figures.force_over_stroke(result.history)),
+        ],
+    )
+    yield Section(
+        id="loads",
+        title="Attachment loads",
+        text="Force and moment of the gear on the airframe at the attachment node, in "
+        "the axes of the finite-element model, as increments to steady flight. These "
+        "load the full model.",
+        blocks=[Block(svg=figures.attachment_loads(result.history))],
+    )
+    yield _accelerations(result)
+    yield _spectra(result)
+    yield Section(
+        id="energy",
+        title="Energy audit",
+        text="Kinetic, stored and dissipated energy must add up to a constant. The "
+        "sink energy, half the mass times the sink rate squared, is "
+        f"{result.history.figures['sink_energy'] / 1e3:.1f} kJ.",
+        blocks=[Block(svg=figures.energy(result.history))],
+    )
+    yield _tables(result)
+
+
+def _accelerations(result: "ProcessResult") -> Section:
+    multibody = result.multibody_on_grid
+    floor = NEGLIGIBLE * max(result.comparison["peak_fe"].max(), 0.0)
+    pictures = [
+        figures.accelerations(point, multibody[point], transient, floor)
+        for point, transient in result.response.items()
+    ]
+    shown = result.comparison.dropna(subset="rms_error")
+    return Section(
+        id="accelerations",
+        title="Accelerations",
+        text=f"Multibody with {mode_count(result)}, and the direct "
+        "transient of the full model under the same attachment loads. Axes of the "
+        "model; components that vanish by symmetry are left out.",
+        blocks=[
+            *(Block(svg=picture) for picture in pictures if picture),
+            table_block(
+                shown,
+                _AGREEMENT,
+                _AGREEMENT_FORMATS,
+                "Multibody against direct transient; errors relative to the latter",
+            ),
+        ],
+    )
+
+
+def _spectra(result: "ProcessResult") -> Section:
+    step = result.loads.step
+
+    def of(tables: dict[str, pd.DataFrame]) -> dict[str, np.ndarray]:
+        return {
+            point: shock_response_spectrum(t["z"].to_numpy(), step, _SPECTRUM_HZ)
+            for point, t in tables.items()
+        }
+
+    picture = figures.spectra(
+        _SPECTRUM_HZ, of(result.multibody_on_grid), of(result.response)
+    )
+    return Section(
+        id="spectra",
+        title="Shock response spectra",
+        text="Largest acceleration of an oscillator (Q = 10) that stands on the point "
+        "and is shaken vertically, over its natural frequency: what equipment there "
+        "has to bear.",
+        blocks=[Block(svg=picture)],
+    )
+
+
+def _tables(result: "ProcessResult") -> Section:
+    peaks = result.gears.pivot(index="gear", columns="quantity", values="peak")
+    peaks = peaks.loc[list(dict.fromkeys(result.gears["gear"]))].reset_index()
+    kilo = [c for c in peaks.columns if c not in ("gear", "stroke")]
+    peaks[kilo] = peaks[kilo] / 1e3
+    heads = {
+        "gear": "gear",
+        "stroke": "stroke m",
+        "tyre_vertical": "tyre vertical kN",
+        "tyre_drag": "tyre drag kN",
+        **{f"attachment_f{a}": f"F{a} kN" for a in "xyz"},
+        **{f"attachment_m{a}": f"M{a} kNm" for a in "xyz"},
+    }
+    formats = dict.fromkeys(heads, ".2f") | {"stroke": ".4f"}
+    # Zero by symmetry reads better without a sign.
+    peaks[kilo] = peaks[kilo].where(peaks[kilo].abs() > 5e-3, 0.0)
+    return Section(
+        id="tables",
+        title="Tables and files",
+        text="Beside this page: results.h5 with all histories, comparison.csv, "
+        "gears.csv, the histories as CSV, the replay landing.html, and "
+        "landing_sol109.bdf, the complete deck of the transient.",
+        blocks=[
+            table_block(peaks, heads, formats, "Peaks per gear (largest magnitude)"),
+            table_block(
+                pd.DataFrame(
+                    {"stage": result.seconds.keys(), "s": result.seconds.values()}
+                ),
+                {"stage": "stage", "s": "seconds"},
+                {"s": ".2f"},
+                "Time taken",
+            ),
+            Block(
+                caption="The case file, defaults written out",
+                pre=case_text(result.case),
+            ),
+        ],
+    )
+
+
+def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
+    case, body, run = result.case, result.airframe.body, result.history.figures
+    s, sim, tr = case.scenario, case.simulation, case.transient
+    x, y, z = body.p_BG
+    last = f" up to {body.frequency[-1]:.2f} Hz" if body.n else ""
+    topology = result.aircraft.topology
+    return [
+        (
+            "aircraft",
+            result.aircraft.name + (f", topology {topology}" * bool(topology)),
+        ),
+        (
+            "airframe",
+            f"{result.airframe.grids} grids, {body.mass:,.0f} kg without gears, centre "
+            f"of gravity at x {x:.3f}, y {y:.3f}, z {z:.3f} m",
+        ),
+        ("basis", case.airframe.basis),
+        ("elastic modes", f"{body.n} ({case.airframe.select}){last}"),
+        (
+            "touchdown",
+            f"sink rate {s.sink_rate:g} m/s, forward {s.forward_speed:g} m/s, pitch "
+            f"{s.pitch:g}°, roll {s.roll:g}°, yaw {s.yaw:g}°; lift = {s.lift}",
+        ),
+        (
+            "multibody run",
+            f"{sim.duration:g} s, {sim.integrator}, accuracy {sim.accuracy:g}: "
+            f"{run['steps']:.0f} steps, {run['evaluations']:.0f} evaluations",
+        ),
+        (
+            "direct transient",
+            f"{result.loads.time[-1]:g} s in steps of {tr.step:g} s, {tr.scheme}",
+        ),
+    ]

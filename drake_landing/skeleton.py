@@ -1,0 +1,83 @@
+"""The airframe as lines for pictures: element edges between grids, and mode shapes."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+_LINES = {
+    "CBAR": ("ga", "gb"),
+    "CBEAM": ("ga", "gb"),
+    "CROD": ("g1", "g2"),
+    "CTUBE": ("g1", "g2"),
+    "PLOTEL": ("g1", "g2"),
+}
+_FACES = {
+    "CQUAD4": ("g1", "g2", "g3", "g4"),
+    "CTRIA3": ("g1", "g2", "g3"),
+    "CSHEAR": ("g1", "g2", "g3", "g4"),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Skeleton:
+    """Lines that deform.
+
+    Attributes:
+        p: (g, 3) positions of the grids, m, axes A.
+        shape: (g, 3, n) modal displacement of the grids per unit amplitude, A.
+        edges: (e, 2) rows of the two grids of each line.
+    """
+
+    p: Float64
+    shape: Float64
+    edges: Int64
+
+    def thinned(self, count: int) -> "Skeleton":
+        """With at most that many lines, taken evenly, and without unused grids."""
+        edges = self.edges
+        if len(edges) > count:
+            edges = edges[np.linspace(0, len(edges) - 1, count).astype(int)]
+        used, renumbered = np.unique(edges, return_inverse=True)
+        return Skeleton(
+            p=self.p[used],
+            shape=self.shape[used],
+            edges=renumbered.reshape(edges.shape),
+        )
+
+    def deformed(self, amplitudes: Float64, factor: float) -> Float64:
+        """(g, 3) positions at modal amplitudes (n,), displacements times a factor."""
+        return self.p + factor * (self.shape @ amplitudes)
+
+
+def element_edges(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:
+    """Edges of lines, shells and rigid elements, each once.
+
+    Args:
+        cards: tables of a deck.
+        grid_id: (g,) ascending.
+
+    Returns:
+        (e, 2) rows of `grid_id`.
+    """
+    pairs = [np.zeros((0, 2), np.int64)]
+    for card, (a, b) in _LINES.items():
+        pairs.append(cards[card][[a, b]].to_numpy(np.int64))
+    for card, corners in _FACES.items():
+        nodes = cards[card][list(corners)].to_numpy(np.int64)
+        pairs += [nodes[:, [i, i - 1]] for i in range(len(corners))]
+    for rigid in cards["RBE2"].itertuples():
+        pairs.append(np.array([[rigid.gn, g] for g in rigid.gms], dtype=np.int64))
+    for rigid in cards["RBE3"].itertuples():
+        pairs.append(
+            np.array([[rigid.refgrid, g] for g in set(rigid.grids)], dtype=np.int64)
+        )
+    edges = np.concatenate([p.reshape(-1, 2) for p in pairs])
+    edges = edges[np.isin(edges, grid_id).all(axis=1)]
+    edges = np.unique(np.sort(edges, axis=1), axis=0)
+    return np.searchsorted(grid_id, edges[edges[:, 0] != edges[:, 1]])

@@ -1,0 +1,80 @@
+"""A run in one sentence and five figures."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from drake_landing.case import Case
+
+if TYPE_CHECKING:
+    from drake_landing.process import ProcessResult
+
+
+def story(result: "ProcessResult") -> str:
+    """What was done."""
+    case, body = result.case, result.airframe.body
+    s = case.scenario
+    mass = body.mass + sum(gear.mass for gear in result.aircraft.gears)
+    return (
+        f"{result.aircraft.name}, {mass / 1e3:.1f} t, touched down at "
+        f"{s.sink_rate:g} m/s sink rate and {s.forward_speed:g} m/s{_attitude(case)}: "
+        f"{len(result.aircraft.gears)} gears on a multibody airframe with "
+        f"{mode_count(result)}, then the attachment loads on the "
+        f"full model of {result.airframe.grids} grids over "
+        f"{result.loads.time[-1]:.2f} s."
+    )
+
+
+def mode_count(result: "ProcessResult") -> str:
+    """E.g. `73 elastic modes`."""
+    n = result.airframe.body.n
+    return f"{n} elastic mode{'' if n == 1 else 's'}"
+
+
+def key_figures(result: "ProcessResult") -> list[tuple[str, str]]:
+    """The five most useful numbers of a run, as text."""
+    gears = result.gears.set_index("quantity")
+    tyre, drag, stroke = (
+        _largest(gears.loc[[quantity]])
+        for quantity in ("tyre_vertical", "tyre_drag", "stroke")
+    )
+    return [
+        ("largest vertical tyre load of a gear", _at(tyre, 1e-3, "kN", ".1f")),
+        ("largest spin-up drag of a gear", _at(drag, 1e-3, "kN", ".1f")),
+        ("largest stroke", _at(stroke, 1.0, "m", ".3f")),
+        ("highest acceleration", _acceleration(result.comparison)),
+        ("multibody against direct transient", _difference(result.comparison)),
+    ]
+
+
+def _attitude(case: Case) -> str:
+    s = case.scenario
+    angles = {"pitch": s.pitch, "roll": s.roll, "yaw": s.yaw}
+    turned = [f"{name} {value:g}°" for name, value in angles.items() if value]
+    return ", " + ", ".join(turned) if turned else ", level"
+
+
+def _largest(table: pd.DataFrame) -> pd.Series:
+    return table.iloc[int(np.argmax(table["peak"].abs().to_numpy()))]
+
+
+def _at(row: pd.Series, factor: float, unit: str, spec: str) -> str:
+    gear = str(row["gear"]).replace("_", " ")
+    return f"{factor * row['peak']:{spec}} {unit} ({gear}, {row['time']:.3f} s)"
+
+
+def _acceleration(comparison: pd.DataFrame) -> str:
+    row = comparison.iloc[int(np.argmax(comparison["peak_fe"].to_numpy()))]
+    where = f"{str(row['point']).replace('_', ' ')}, {row['axis']}"
+    return f"{row['peak_fe']:.2f} m/s² ({where}; multibody {row['peak_mbs']:.2f} m/s²)"
+
+
+def _difference(comparison: pd.DataFrame) -> str:
+    """Of the vertical accelerations, or of all where none is vertical."""
+    vertical = comparison[comparison["axis"] == "z"].dropna(subset="rms_error")
+    errors = (vertical if len(vertical) else comparison.dropna())["rms_error"]
+    if errors.empty:
+        return "nothing moves"
+    low, high = errors.min(), errors.max()
+    return f"rms {low:.1%} to {high:.1%} (vertical, all points)"
