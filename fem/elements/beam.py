@@ -248,7 +248,9 @@ def read_cbeam(deck: "Deck", points: Points) -> list[Beam]:
     if rows.empty:
         return []
     pbeam = refer(rows, "CBEAM", "pid", table(deck, "PBEAM"), "PBEAM")
-    uniform = np.array([_is_uniform(p) for _, p in pbeam.iterrows()])
+    properties = table(deck, "PBEAM")
+    prismatic = [int(p["pid"]) for _, p in properties.iterrows() if _is_uniform(p)]
+    uniform = rows["pid"].isin(prismatic).to_numpy()
     return [
         _block(deck, points, rows[part], pbeam[part])
         for part in (uniform, ~uniform)
@@ -298,8 +300,9 @@ def _is_uniform(row: pd.Series) -> bool:
 
 def _sections(pbeam: pd.DataFrame) -> BeamSection:
     """Sections per element; each property is evaluated once."""
-    unique, index = np.unique(pbeam["pid"].to_numpy(np.int64), return_inverse=True)
-    first = [int(np.argmax(index == k)) for k in range(len(unique))]
+    _, first, index = np.unique(
+        pbeam["pid"].to_numpy(np.int64), return_index=True, return_inverse=True
+    )
     properties = [pbeam.iloc[k] for k in first]
     segments = max(len(p["xxbs"]) - 1 for p in properties)
     uniform = all(_is_uniform(p) for p in properties)

@@ -27,7 +27,7 @@ number = st.floats(-2.0, 2.0).map(lambda a: round(a, 3))
     cid=st.sampled_from([-1, 0, 1, 2]),
 )
 def test_offset_mass_is_an_exact_rigid_body(model, x, cd, cid):
-    grid, offset = np.array(x[:3]) + [5.0, 4.0, 3.0], np.array(x[3:])
+    grid, offset = np.array(x[:3]) + np.array([5.0, 4.0, 3.0]), np.array(x[3:])
     coordinates = ",".join(f"{v:.3f}" for v in offset)
     built = model(
         FRAMES
@@ -44,7 +44,7 @@ def test_offset_mass_is_an_exact_rigid_body(model, x, cd, cid):
     assert weight.center == pytest.approx(cg, rel=1e-10, abs=1e-10)
     expected = axes @ tensor @ axes.T
     assert weight.inertia == pytest.approx(expected, rel=1e-8, abs=1e-10)
-    assert weight.IQ == pytest.approx(np.linalg.eigvalsh(tensor), rel=1e-8)
+    assert pytest.approx(np.linalg.eigvalsh(tensor), rel=1e-8) == weight.IQ
 
 
 def test_table_about_a_reference_in_nastrans_signs(model):
@@ -59,9 +59,9 @@ def test_table_about_a_reference_in_nastrans_signs(model):
         [6, 0, -2, -4, 20, -12],
         [-4, 2, 0, -6, -12, 10],
     ]
-    assert weight.MO == pytest.approx(np.array(expected, float))
+    assert pytest.approx(np.array(expected, dtype=float)) == weight.MO
     assert weight.cg == pytest.approx(np.array([[0, 2, 3], [1, 0, 3], [1, 2, 0.0]]))
-    assert weight.IS == pytest.approx(np.zeros((3, 3)), abs=1e-12)
+    assert pytest.approx(np.zeros((3, 3)), abs=1e-12) == weight.IS
 
 
 def test_products_of_inertia_have_nastrans_sign(model):

@@ -121,7 +121,7 @@ SPC1,1,123456,1
 
 
 def test_constraint_forces_balance_the_load(model):
-    """The reaction holds load and moment; MPC forces are in equilibrium by themselves."""
+    """The reaction holds load and moment; MPC forces balance by themselves."""
     built = model(FRAME_OF_BARS, "SPC=1")
     e, k = built.elimination, built.matrices.stiffness
     load = np.zeros(built.points.size)
@@ -143,7 +143,7 @@ def test_reduced_matrix_is_exactly_symmetric(model):
 
 
 def test_autospc_finds_the_free_freedoms_of_a_skew_truss(model):
-    """One rod along (1, 2, 2)/3 in turned frames: 5 of 6 freedoms per grid are loose."""
+    """One rod along (1, 2, 2)/3 in turned frames: 5 of 6 freedoms are loose."""
     built = model(
         "CORD2R,1,,1.,2.,3.,2.,3.,5.\n,4.,1.,2.\nMAT1,1,7.+10,,.33\n"
         "GRID,1,,0.,0.,0.,1,1\nGRID,2,,1.,2.,2.\nSPOINT,9\nCONROD,1,1,2,1,.01"

@@ -144,7 +144,7 @@ def test_timoshenko_cantilever(model, card):
 
 
 def test_product_of_inertia_bends_across_the_load(model):
-    """Unsymmetric bending: w'' = (I1 Mz - I12 ...)/(E (I1 I2 - I12²)) in closed form."""
+    """(v, w) = L³ (I2, -I12) / (3 E (I1 I2 - I12²)) by a force in y."""
     built = model(
         BEAM_ALONG_X + "CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,.01,4.-6,9.-6,5.-6\n,\n,,,2.-6",
         "SPC=1",
