@@ -25,7 +25,7 @@ from drake_landing.gear_bodies import AddLandingGear, GearBodies
 from drake_landing.gear_parameters import shock_absorber_parameters, tire_parameters
 from systems.attachment import Attachment, RigidAttachment
 from systems.bushing_attachment import BushingAttachment
-from systems.energy_budget import EnergyBudget
+from systems.energy_budget import AddEnergyBudget, EnergyBudget
 from systems.flexible_airframe import FlexibleAirframe
 from systems.gear_forces import GearForces
 from systems.modal_body import ModalBody
@@ -155,8 +155,10 @@ def MakeLandingDiagram(
     systems = {"plant": plant, "airframe": airframe, "attachment": held}
     systems |= {f"tire_{name}": tire for name, tire in tires.items()}
     systems |= {f"shock_absorber_{name}": a for name, a in absorbers.items()}
-    budget = _add_budget(builder, systems) if energy_budget else None
-    if budget:
+    budget = None
+    if energy_budget:
+        others = [system for name, system in systems.items() if name != "plant"]
+        budget = AddEnergyBudget(builder, plant, others)
         systems["energy_budget"] = budget
     loggers = _add_loggers(builder, systems) if log else {}
     diagram = builder.Build()
@@ -217,19 +219,6 @@ def _connect_attachment(
     builder.Connect(forces.GetOutputPort("spatial_forces"), both.get_input_port(0))
     builder.Connect(held.GetOutputPort("wrench_on_gear"), both.get_input_port(1))
     builder.Connect(both.get_output_port(), plant.GetInputPort("applied_spatial_force"))
-
-
-def _add_budget(
-    builder: DiagramBuilder, systems: dict[str, LeafSystem]
-) -> EnergyBudget:
-    others = {name: system for name, system in systems.items() if name != "plant"}
-    budget = EnergyBudget(cast(Any, systems["plant"]), list(others), list(others))
-    builder.AddNamedSystem("energy_budget", budget)
-    _connect(builder, systems["plant"], "state", budget, "plant_state")
-    for name, system in others.items():
-        _connect(builder, system, "energy", budget, f"energy_{name}")
-        _connect(builder, system, "dissipated_power", budget, f"power_{name}")
-    return budget
 
 
 def _add_loggers(

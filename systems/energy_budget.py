@@ -6,7 +6,12 @@ from typing import Any
 import numpy as np
 from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
-from pydrake.systems.framework import BasicVector, LeafSystem, ValueProducer
+from pydrake.systems.framework import (
+    BasicVector,
+    DiagramBuilder,
+    LeafSystem,
+    ValueProducer,
+)
 
 
 class EnergyBudget(LeafSystem):
@@ -85,3 +90,28 @@ class EnergyBudget(LeafSystem):
         total += self._plant.EvalKineticEnergy(plant_context)
         total += self._plant.EvalPotentialEnergy(plant_context)
         output.SetAtIndex(0, total)
+
+
+def AddEnergyBudget(
+    builder: DiagramBuilder,
+    plant: MultibodyPlant,
+    systems: Sequence[LeafSystem],
+    unit: float = 1e5,
+) -> EnergyBudget:
+    """Adds the system `energy_budget` and connects it.
+
+    Args:
+        builder: that already holds plant and systems.
+        plant: finalised.
+        systems: with ports `energy` and `dissipated_power`, each with its own name.
+        unit: see EnergyBudget, J.
+    """
+    names = [system.get_name() for system in systems]
+    budget = EnergyBudget(plant, names, names, unit)
+    builder.AddNamedSystem("energy_budget", budget)
+    builder.Connect(plant.GetOutputPort("state"), budget.GetInputPort("plant_state"))
+    for name, system in zip(names, systems):
+        for port, kind in (("energy", "energy"), ("dissipated_power", "power")):
+            source = system.GetOutputPort(port)
+            builder.Connect(source, budget.GetInputPort(f"{kind}_{name}"))
+    return budget
