@@ -17,8 +17,7 @@ from drake_landing.aircraft.geometry import (
     fuselage_section,
     surface,
 )
-from drake_landing.aircraft.mass_elements import add_masses
-from drake_landing.aircraft.masses import Lumps, movable_of
+from drake_landing.aircraft.mass_items import movable_of
 from drake_landing.aircraft.model import ModelBuilder
 from drake_landing.aircraft.outline import add_edges, add_fuselage_outline
 from drake_landing.aircraft.reference_axis import (
@@ -33,15 +32,12 @@ from drake_landing.aircraft.reference_axis import (
 TOPOLOGIES = ("1", "2")
 
 
-def build_con(
-    model: ModelBuilder, reference: Reference, lumps: Lumps, topology: str
-) -> None:
+def build_con(model: ModelBuilder, reference: Reference, topology: str) -> None:
     """Writes the conceptual aircraft.
 
     Args:
         model: an empty bench.
         reference: the reference nodes.
-        lumps: masses of the airframe on the reference nodes.
         topology: `1` gears on the side-of-body ribs of the centre wing box, `2` on the
             inner wing's gear ribs.
     """
@@ -63,7 +59,6 @@ def build_con(
             "main_right": [_rib_node(reference, "wing_right", rib)],
         },
     )
-    add_masses(model, lumps)
     add_edges(model, reference)
     add_fuselage_outline(model, reference["fuselage"])
 

@@ -10,7 +10,8 @@ import numpy as np
 from drake_landing.aircraft import con
 from drake_landing.aircraft.beams import add_materials
 from drake_landing.aircraft.gears import landing_gears
-from drake_landing.aircraft.masses import Lumps, mass_table, node_masses
+from drake_landing.aircraft.mass_elements import add_masses
+from drake_landing.aircraft.masses import mass_table, node_masses
 from drake_landing.aircraft.model import AircraftModel, ModelBuilder
 from drake_landing.aircraft.reference_axis import (
     ATTACHMENTS,
@@ -26,12 +27,12 @@ class Recipe:
     """How a level is built.
 
     Attributes:
-        build: writes the model onto the bench.
+        build: writes the structure onto the bench; mass items come after it.
         topologies: gear topologies it knows; the first is the default.
         modes: number of modes that its deck asks for.
     """
 
-    build: Callable[[ModelBuilder, Reference, Lumps, str], None]
+    build: Callable[[ModelBuilder, Reference, str], None]
     topologies: tuple[str, ...]
     modes: int
 
@@ -60,10 +61,11 @@ def build(level: str = "con", topology: str | None = None) -> AircraftModel:
             f"{', '.join(recipe.topologies)} for the {level} aircraft"
         )
     reference, gears = reference_nodes(), landing_gears()
-    lumps = node_masses(reference, gears)
     bench = ModelBuilder()
     add_materials(bench)
-    recipe.build(bench, reference, lumps, topology)
+    recipe.build(bench, reference, topology)
+    lumps = node_masses(reference, gears, bench.structure)
+    add_masses(bench, lumps)
     sets = {
         1: list(MONITORS.values()),
         2: interface_nodes(),
@@ -81,7 +83,7 @@ def build(level: str = "con", topology: str | None = None) -> AircraftModel:
         attachment=attachment_nodes(),
         interface=interface_nodes(),
         parts={part: tuple(nodes) for part, nodes in bench.parts.items() if nodes},
-        masses=mass_table(lumps, reference),
+        masses=mass_table(lumps, reference, bench.structure),
         gears=gears,
     )
 

@@ -59,14 +59,19 @@ class ModelBuilder:
     """Grids and cards of a model under construction.
 
     Ids of elements and properties are handed out from the base of the current part:
-    part k has elements and properties from k·100000.
+    part k has elements and properties from k·100000. `structure` holds mass (kg) and
+    centre (m) of every element with mass, by part.
     """
 
     sections: dict[str, Section] = field(default_factory=dict)
     position: dict[int, Float64] = field(default_factory=dict)
     parts: dict[str, list[int]] = field(default_factory=dict)
     elements: int = 0
+    structure: dict[str, list[tuple[float, Float64]]] = field(default_factory=dict)
     _next: dict[str, int] = field(default_factory=dict)
+    _properties: dict[str, int] = field(default_factory=dict)
+    _per_area: dict[int, float] = field(default_factory=dict)
+    _per_length: dict[int, float] = field(default_factory=dict)
 
     def section(self, title: str) -> Section:
         """The section of that title, made when first asked for."""
@@ -111,12 +116,107 @@ class ModelBuilder:
         return eid
 
     def average(
-        self, part: str, node: int, nodes: Sequence[int], weight: float = 1.0
+        self,
+        part: str,
+        node: int,
+        grids: Sequence[int],
+        dependent: Mapping[int, str] | None = None,
     ) -> int:
-        """RBE3: `node` moves with the weighted mean of the translations of nodes."""
+        """RBE3: `node` moves with the mean of the translations of the grids.
+
+        Args:
+            part: section.
+            node: reference grid.
+            grids: independent grids.
+            dependent: grid -> components that are dependent instead of the node's.
+        """
         eid = self.next_id(part)
-        self.section(part).add("RBE3", eid, None, node, "123456", weight, "123", *nodes)
+        values: list[Value] = [eid, None, node, "123456", 1.0, "123", *grids]
+        if dependent:
+            values += [None] * (-len(values) % 8)
+            pairs = list(dependent.items())
+            for row in range(0, len(pairs), 3):
+                three = [v for pair in pairs[row : row + 3] for v in pair]
+                values += ["UM" if row == 0 else None, *three]
+                values += [None] * (-len(values) % 8)
+        self.section(part).add("RBE3", *values, wide=False)
         return eid
+
+    def shell_property(
+        self, name: str, material: int, thickness: float, bending: float = 1.0
+    ) -> int:
+        """PSHELL of that name, written when first asked for; returns its id.
+
+        Args:
+            name: comment, and key.
+            material: id.
+            thickness: m.
+            bending: 12 I/T³, 1 for a plain sheet.
+        """
+        if name not in self._properties:
+            pid = self.next_id("shells", "property")
+            section = self.section("Properties of shells")
+            section.comment(f"property {pid}: {name}")
+            ratio = bending if bending != 1.0 else None
+            t = float(f"{thickness:.5g}")
+            section.add("PSHELL", pid, material, t, material, ratio, material)
+            self._properties[name] = pid
+            self._per_area[pid] = density(material) * t
+        return self._properties[name]
+
+    def bar_property(
+        self, name: str, material: int, area: float, i1: float, i2: float, j: float
+    ) -> int:
+        """PBAR of that name (m², m⁴), written when first asked for; returns its id."""
+        if name not in self._properties:
+            pid = self.next_id("bars", "property")
+            section = self.section("Properties of bars")
+            section.comment(f"property {pid}: {name}")
+            values = [float(f"{x:.5g}") for x in (area, i1, i2, j)]
+            section.add("PBAR", pid, material, *values)
+            self._properties[name] = pid
+            self._per_length[pid] = density(material) * values[0]
+        return self._properties[name]
+
+    def shell(self, part: str, pid: int, nodes: Sequence[int]) -> None:
+        """CQUAD4 or CTRIA3, whose mass is counted in the part's structure."""
+        self.element(part, "CQUAD4" if len(nodes) == 4 else "CTRIA3", pid, *nodes)
+        p = np.array([self.position[i] for i in nodes])
+        area, centre = shell_area_centre(p)
+        self._count(part, self._per_area[pid] * area, centre)
+
+    def bar(
+        self,
+        part: str,
+        pid: int,
+        a: int,
+        b: int,
+        orientation: Float64,
+        shift: Float64 | None = None,
+    ) -> None:
+        """CBAR, whose mass is counted in the part's structure.
+
+        Args:
+            part: section.
+            pid: of a `bar_property`.
+            a: grid at the start.
+            b: grid at the end.
+            orientation: (3,) vector of plane 1.
+            shift: (3,) offset of both ends from their grids, m.
+        """
+        vector = [round(float(x), 4) + 0.0 for x in orientation]
+        offset: list[float] = []
+        if shift is not None and np.any(shift):
+            offset = [round(float(x), 5) + 0.0 for x in shift]
+        tail = [None, None, None, *offset, *offset] if offset else []
+        self.element(part, "CBAR", pid, a, b, *vector, *tail)
+        pa, pb = self.position[a], self.position[b]
+        length = float(np.linalg.norm(pb - pa))
+        extra = np.array(offset) if offset else 0.0
+        self._count(part, self._per_length[pid] * length, (pa + pb) / 2 + extra)
+
+    def _count(self, part: str, mass: float, centre: Float64) -> None:
+        self.structure.setdefault(part, []).append((mass, centre))
 
     def deck(self, title: str, sets: Mapping[int, Sequence[int]], modes: int) -> str:
         """The text of the deck, a normal-modes run of `modes` modes."""
@@ -140,3 +240,15 @@ def _grid_value(x: float) -> float:
     """Positions to a micrometre: mirrored grids stay exact mirror images."""
     value = float(np.round(x, 6))
     return value + 0.0  # no minus zero
+
+
+def density(material: int) -> float:
+    """Of a material by its id, kg/m³."""
+    return next(m["rho"] for m in facts("materials").values() if m["id"] == material)
+
+
+def shell_area_centre(p: Float64) -> tuple[float, Float64]:
+    """Area (m²) and middle (3,) of a triangle or quadrilateral (3 or 4, 3)."""
+    if len(p) == 3:
+        return float(np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0])) / 2), p.mean(0)
+    return float(np.linalg.norm(np.cross(p[2] - p[0], p[3] - p[1])) / 2), p.mean(0)
