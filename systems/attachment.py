@@ -24,7 +24,11 @@ from pydrake.multibody.tree import MultibodyForces, RigidBody
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
 from systems.gear_forces import spatial_forces
-from systems.rotations import log, rotation_from_quaternion
+from systems.rotations import (
+    log,
+    rotation_from_quaternion,
+    rotations_from_quaternions,
+)
 
 Float64 = npt.NDArray[np.float64]
 
@@ -71,7 +75,7 @@ class Attachment(LeafSystem):
                     "a quaternion floating joint"
                 )
         nq = plant.num_positions()
-        self._quaternions = [slice(i, i + 4) for i in _starts(fittings)]
+        self._quaternions = np.add.outer(_starts(fittings), [0, 1, 2, 3])
         self._translations = np.add.outer(_starts(fittings), [4, 5, 6])
         v = np.array([body.floating_velocities_start_in_v() for body in fittings])
         self._rows = np.add.outer(v, np.arange(6)).ravel()
@@ -137,7 +141,7 @@ class Attachment(LeafSystem):
     def _calc_gap(self, context, value) -> None:
         state = self._state.Eval(context)
         pose = self._pose.Eval(context).reshape(self._k, 12)
-        R_WF = np.array([rotation_from_quaternion(state[q]) for q in self._quaternions])
+        R_WF = rotations_from_quaternions(state[self._quaternions])
         R_WN = pose[:, :9].reshape(self._k, 3, 3)
         gap = np.empty((self._k, 2, 6))
         gap[:, 0, :3] = log(R_WF @ R_WN.swapaxes(1, 2))
@@ -219,10 +223,12 @@ class RigidAttachment(Attachment):
         plant = self._plant
         forces = MultibodyForces(plant)
         plant.CalcForceElementsContribution(plant_context, forces)
-        forces.mutable_generalized_forces()[:] += self._generalized.Eval(context)
+        generalized = forces.mutable_generalized_forces()
+        generalized += self._generalized.Eval(context)
+        world, get_body = self._world, plant.get_body
         for force in self._spatial.Eval(context):
-            plant.get_body(force.body_index).AddInForce(
-                plant_context, force.p_BoBq_B, force.F_Bq_W, self._world, forces
+            get_body(force.body_index).AddInForce(
+                plant_context, force.p_BoBq_B, force.F_Bq_W, world, forces
             )
         return -plant.CalcInverseDynamics(plant_context, self._zero, forces)
 

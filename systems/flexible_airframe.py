@@ -219,7 +219,7 @@ class FlexibleAirframe(LeafSystem):
     def _calc_motion(self, context, value) -> None:
         x = context.get_continuous_state_vector().CopyToVector()
         R_WB = rotation_from_quaternion(x[3:7])
-        amplitudes = x[13:].reshape(2, self.n).T
+        amplitudes = x[13:].reshape(2, self.n)
         nodes = node_motion(self._nodes, R_WB, x[:3], x[7:13], amplitudes)
         value.set_value(_Motion(x, R_WB, amplitudes, nodes))
 
@@ -236,7 +236,7 @@ class FlexibleAirframe(LeafSystem):
         a, b, c = w_B.tolist()
         h, i, j = (self._inertia @ w_B).tolist()
         rigid[3:] = c * i - b * j, a * j - c * h, b * h - a * i
-        eta, rate = m.amplitudes.T
+        eta, rate = m.amplitudes
         elastic = -self._stiffness * eta - self._damping @ rate
         if self._external.HasValue(context):
             load = self._external.Eval(context)

@@ -18,7 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from systems.modal_body import ModalBody
-from systems.rotations import cross, rotation_kinematics, skew
+from systems.rotations import rotation_kinematics, skew
 
 Float64 = npt.NDArray[np.float64]
 
@@ -47,11 +47,14 @@ class Nodes:
         shape: (6 k, n) scaled modes, per node [rotation; translation], B axes.
         compliance: (6 k, 6 k) shape m⁻¹ shapeᵀ, accelerations per wrench through the
             modes alone.
+        diagonal_blocks: (18 k,) places of the 3 by 3 blocks on the diagonal of a
+            flattened (6 k, 6 k) matrix.
     """
 
     p_GN: Float64
     shape: Float64
     compliance: Float64
+    diagonal_blocks: npt.NDArray[np.int64]
 
     @classmethod
     def of(cls, body: ModalBody, node_id: npt.ArrayLike, scale: Float64) -> "Nodes":
@@ -60,7 +63,11 @@ class Nodes:
         shape = np.stack([body.rotation[rows], body.translation[rows]], axis=1)
         shape = np.ascontiguousarray(shape.reshape(6 * len(rows), body.n) * scale)
         compliance = (shape / (body.modal_mass * scale**2)) @ shape.T
-        return cls(body.p_BN[rows] - body.p_BG, shape, compliance)
+        k = len(rows)
+        places = np.arange(36 * k * k).reshape(2 * k, 3, 2 * k, 3)
+        i = np.arange(2 * k)
+        blocks = places[i, :, i, :].ravel()
+        return cls(body.p_BN[rows] - body.p_BG, shape, compliance, blocks)
 
     def __len__(self) -> int:
         return len(self.p_GN)
@@ -101,38 +108,38 @@ def node_motion(
         R_WB: (3, 3) orientation of the floating frame.
         p_WG: (3,) position of the centre of gravity, m.
         rigid_velocity: (6,) [v_WG in W, m/s; ω_B in B, rad/s].
-        amplitudes: (n, 2) scaled modal amplitudes η and their rates η'.
+        amplitudes: (2, n) scaled modal amplitudes η and their rates η'.
     """
     k = len(nodes)
-    elastic_B = nodes.shape @ amplitudes
-    parts = elastic_B.reshape(k, 2, 3, 2)
-    theta_rate = parts[:, 0, :, 1]
-    shift_rate = parts[:, 1, :, 1]
-    turn, jacobian, jacobian_rate = rotation_kinematics(parts[:, 0, :, 0], theta_rate)
-    r = nodes.p_GN + parts[:, 1, :, 0]
+    elastic_B = amplitudes @ nodes.shape.T
+    (theta, shift), (theta_rate, shift_rate) = elastic_B.reshape(2, k, 2, 3).swapaxes(
+        1, 2
+    )
+    turn, jacobian, jacobian_rate = rotation_kinematics(theta, theta_rate)
+    r = nodes.p_GN + shift
+    R_BW = R_WB.T
 
     rigid = np.zeros((k, 2, 3, 6))
     rigid[:, 0, :, 3:] = R_WB
     rigid[:, 1, :, :3] = _ONE
     rigid[:, 1, :, 3:] = R_WB @ skew(-r)
     rigid = rigid.reshape(6 * k, 6)
-    elastic = np.zeros((k, 2, 3, k, 2, 3))
-    i = np.arange(k)
-    elastic[i, 0, :, i, 0, :] = R_WB @ jacobian
-    elastic[i, 1, :, i, 1, :] = R_WB
+    blocks = np.empty((k, 2, 3, 3))
+    blocks[:, 0] = R_WB @ jacobian
+    blocks[:, 1] = R_WB
+    elastic = np.zeros(36 * k * k)
+    elastic[nodes.diagonal_blocks] = blocks.ravel()
     elastic = elastic.reshape(6 * k, 6 * k)
 
-    w_B = rigid_velocity[3:]
-    spin = skew(w_B)
-    relative = (jacobian @ theta_rate[:, :, None])[:, :, 0]
+    spin = skew(-rigid_velocity[3:])  # acts from the right on rows
     bias = np.empty((k, 2, 3))
-    bias[:, 0] = cross(w_B, relative) + jacobian_rate
-    bias[:, 1] = (r @ spin.T + 2.0 * shift_rate) @ spin.T
+    bias[:, 0] = (jacobian @ theta_rate[:, :, None])[:, :, 0] @ spin + jacobian_rate
+    bias[:, 1] = (r @ spin + 2.0 * shift_rate) @ spin
     return NodeMotion(
         R=R_WB @ turn,
-        p=p_WG + r @ R_WB.T,
-        velocity=rigid @ rigid_velocity + elastic @ elastic_B[:, 1],
-        bias=(bias @ R_WB.T).reshape(6 * k),
+        p=p_WG + r @ R_BW,
+        velocity=rigid @ rigid_velocity + elastic @ elastic_B[1],
+        bias=(bias @ R_BW).ravel(),
         rigid=rigid,
         elastic=elastic,
     )

@@ -20,33 +20,41 @@ _SERIES_BELOW = 0.25
 
 def skew(v: Float64) -> Float64:
     """(..., 3, 3) matrix of the cross product: skew(a) @ b = a × b."""
-    out = np.zeros((*v.shape, 3))
-    out[..., 2, 1] = v[..., 0]
-    out[..., 0, 2] = v[..., 1]
-    out[..., 1, 0] = v[..., 2]
-    return out - out.swapaxes(-1, -2)
+    return (v @ _SKEW).reshape(*v.shape, 3)
 
 
-def cross(a: Float64, b: Float64) -> Float64:
-    """a × b over the last axis; several times cheaper than np.cross on few vectors."""
-    return a[..., _NEXT] * b[..., _LAST] - a[..., _LAST] * b[..., _NEXT]
-
-
-_NEXT, _LAST = [1, 2, 0], [2, 0, 1]
-_LAST_ROW, _LAST_COLUMN = [2, 0, 1], [1, 2, 0]
+_SKEW = np.zeros((3, 3, 3))
+_SKEW[0, 2, 1] = _SKEW[1, 0, 2] = _SKEW[2, 1, 0] = 1.0
+_SKEW = (_SKEW - _SKEW.swapaxes(1, 2)).reshape(3, 9)
 
 
 def rotation_from_quaternion(q: Float64) -> Float64:
     """(3, 3) rotation matrix of the quaternion (w, x, y, z), of any length but zero."""
-    w, x, y, z = q.tolist()
+    return rotations_from_quaternions(q[None])[0]
+
+
+def rotations_from_quaternions(q: Float64) -> Float64:
+    """(k, 3, 3) rotation matrices of quaternions (k, 4)."""
+    return np.array([_rotation(*q_i) for q_i in q.tolist()]).reshape(-1, 3, 3)
+
+
+def _rotation(w: float, x: float, y: float, z: float) -> tuple[float, ...]:
+    """The nine elements, by rows."""
     s = 2.0 / (w * w + x * x + y * y + z * z)
     xs, ys, zs = s * x, s * y, s * z
-    return np.array(
-        [
-            [1.0 - ys * y - zs * z, xs * y - zs * w, xs * z + ys * w],
-            [xs * y + zs * w, 1.0 - xs * x - zs * z, ys * z - xs * w],
-            [xs * z - ys * w, ys * z + xs * w, 1.0 - xs * x - ys * y],
-        ]
+    wx, wy, wz = w * xs, w * ys, w * zs
+    xx, xy, xz = x * xs, x * ys, x * zs
+    yy, yz, zz = y * ys, y * zs, z * zs
+    return (
+        1.0 - yy - zz,
+        xy - wz,
+        xz + wy,
+        xy + wz,
+        1.0 - xx - zz,
+        yz - wx,
+        xz - wy,
+        yz + wx,
+        1.0 - xx - yy,
     )
 
 
@@ -77,36 +85,32 @@ def quaternion_rate(q: Float64, w_B: Float64, stabilisation: float = 10.0) -> li
     ]
 
 
-def _series(first: int) -> tuple[float, ...]:
-    """Σ (-1)^k t2^k / (2k + first)!, highest power first."""
-    return tuple((-1) ** k / math.factorial(2 * k + first) for k in range(8, -1, -1))
+# Terms of sin t/t, a = (1 - cos t)/t², b = (t - sin t)/t³ and of the slopes a', b' of
+# the latter over t²: column j holds the factors of t²^k, Σ (-1)^k t²^k/(2k + j + 1)!.
+_POWERS = np.arange(9)
+_TERMS = np.array(
+    [[(-1.0) ** k / math.factorial(2 * k + j) for j in (1, 2, 3)] for k in range(10)]
+)
+_TERMS = np.hstack([_TERMS[:-1], _TERMS[1:, 1:] * (_POWERS + 1.0)[:, None]])
 
 
-def _slope(series: tuple[float, ...]) -> tuple[float, ...]:
-    order = len(series) - 1
-    return tuple((order - i) * c for i, c in enumerate(series[:-1]))
+def _coefficients(t2: Float64) -> Float64:
+    """(k, 5) of squared angles (k,): sin t/t, a, b, a', b'."""
+    if (t2 < _SERIES_BELOW).all():
+        return (t2[:, None] ** _POWERS) @ _TERMS
+    return np.array([_near(x) if x < _SERIES_BELOW else _far(x) for x in t2.tolist()])
 
 
-_S, _A, _B = _series(1), _series(2), _series(3)
-_TERMS = tuple(zip(_S[1:], _A[1:], _B[1:], _slope(_A), _slope(_B)))
+def _near(t2: float) -> Float64:
+    return t2**_POWERS @ _TERMS
 
 
-def _coefficients(t2: float) -> tuple[float, float, float, float, float]:
-    """Of the squared angle: sin t/t, a = (1 - cos t)/t², b = (t - sin t)/t³, a', b'.
-
-    The slopes a', b' are those over t².
-    """
-    if t2 > _SERIES_BELOW:
-        t = math.sqrt(t2)
-        s = math.sin(t) / t
-        a = (1.0 - math.cos(t)) / t2
-        b = (1.0 - s) / t2
-        return s, a, b, (0.5 * s - a) / t2, (0.5 * a - 1.5 * b) / t2
-    s, a, b, da, db = _S[0], _A[0], _B[0], 0.0, 0.0
-    for s_k, a_k, b_k, da_k, db_k in _TERMS:
-        s, a, b = s * t2 + s_k, a * t2 + a_k, b * t2 + b_k
-        da, db = da * t2 + da_k, db * t2 + db_k
-    return s, a, b, da, db
+def _far(t2: float) -> tuple[float, float, float, float, float]:
+    t = math.sqrt(t2)
+    s = math.sin(t) / t
+    a = (1.0 - math.cos(t)) / t2
+    b = (1.0 - s) / t2
+    return s, a, b, (0.5 * s - a) / t2, (0.5 * a - 1.5 * b) / t2
 
 
 def exp(theta: Float64) -> Float64:
@@ -127,18 +131,21 @@ def rotation_kinematics(
         exp([θ]) (k, 3, 3); the left Jacobians J_l(θ) (k, 3, 3); and the products
         (dJ_l/dt) θ' (k, 3), the part of the angular acceleration that comes without θ".
     """
-    t2 = (theta * theta).sum(axis=1).tolist()
-    tt = (theta * theta_dot).sum(axis=1)
-    s, a, b, da, db = np.array([_coefficients(x) for x in t2]).reshape(-1, 5).T
+    s, a, b, da, db = _coefficients((theta * theta) @ _SUM).T[:, :, None]
     K = skew(theta)
     KK = K @ K
-    one = np.eye(3)
-    R = one + s[:, None, None] * K + a[:, None, None] * KK
-    J = one + a[:, None, None] * K + b[:, None, None] * KK
-    u = cross(theta, theta_dot)
-    w = cross(theta, u)
-    rate = 2.0 * tt[:, None] * (da[:, None] * u + db[:, None] * w)
-    return R, J, rate + b[:, None] * cross(theta_dot, u)
+    aK = a[:, :, None] * K
+    R = _ONE + s[:, :, None] * K + a[:, :, None] * KK
+    J = _ONE + aK + b[:, :, None] * KK
+    # θ × θ', θ × (θ × θ') and θ' × (θ × θ')
+    u = K @ theta_dot[:, :, None]
+    w = (K @ u)[:, :, 0]
+    v = (skew(theta_dot) @ u)[:, :, 0]
+    slope = 2.0 * ((theta * theta_dot) @ _SUM)[:, None]
+    return R, J, slope * (da * u[:, :, 0] + db * w) + b * v
+
+
+_ONE, _SUM = np.eye(3), np.ones(3)
 
 
 def log(R: Float64) -> Float64:
@@ -146,15 +153,18 @@ def log(R: Float64) -> Float64:
 
     Exact for all angles up to half a turn, where the sign of the axis is arbitrary.
     """
-    v = 0.5 * (R - R.swapaxes(1, 2))[:, _LAST_ROW, _LAST_COLUMN]  # axis times sine
-    sine = np.sqrt((v * v).sum(axis=1))
-    cosine = 0.5 * (np.einsum("kii->k", R) - 1.0)
-    if cosine.min() < 0.0:
-        return np.array([_log_far(R_i) for R_i in R])
-    angle = np.arctan2(sine, cosine)
-    return (np.where(sine > 0.0, angle, 1.0) / np.where(sine > 0.0, sine, 1.0))[
-        :, None
-    ] * v
+    return np.array([_log(R_i) for R_i in R])
+
+
+def _log(R: Float64) -> Float64 | tuple[float, float, float]:
+    xx, xy, xz, yx, yy, yz, zx, zy, zz = R.ravel().tolist()
+    cosine = 0.5 * (xx + yy + zz - 1.0)
+    if cosine < 0.0:
+        return _log_far(R)
+    x, y, z = 0.5 * (zy - yz), 0.5 * (xz - zx), 0.5 * (yx - xy)
+    sine = math.sqrt(x * x + y * y + z * z)
+    scale = math.atan2(sine, cosine) / sine if sine > 0.0 else 1.0
+    return scale * x, scale * y, scale * z
 
 
 def _log_far(R: Float64) -> Float64:

@@ -4,11 +4,13 @@ import math
 
 from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
+from pydrake.common.value import Value
 from pydrake.math import atan2
 from pydrake.systems.framework import (
     BasicVector_,
     LeafSystem_,
     NumericParameterIndex,
+    ValueProducer,
 )
 from pydrake.systems.scalar_conversion import TemplateSystem
 
@@ -77,11 +79,18 @@ def Tire_(T):
             if self._lagged:
                 self.DeclareContinuousState(BasicVector_[T]([0.0, 0.0]))
                 everything.add(self.xc_ticket())
+            # The law is evaluated once for wrench, contact, power and lagged slips.
+            self._contact = self.DeclareCacheEntry(
+                "law",
+                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
+                everything,
+            )
+            law = {self._contact.ticket()}
             for name, size, calc, tickets in (
-                ("wrench", 6, self._calc_wrench, everything),
-                ("contact", 6, self._calc_contact, everything),
+                ("wrench", 6, self._calc_wrench, law),
+                ("contact", 6, self._calc_contact, law),
                 ("energy", 1, self._calc_energy, geometry),
-                ("dissipated_power", 1, self._calc_dissipated_power, everything),
+                ("dissipated_power", 1, self._calc_dissipated_power, law),
             ):
                 self.DeclareVectorOutputPort(
                     name, size, calc, prerequisites_of_calc=tickets
@@ -97,21 +106,22 @@ def Tire_(T):
         def _factors(self, context):
             return context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
 
-        def _contact(self, context):
+        def _calc_law(self, context, value):
             """The law's tuple of values, see TireLaw.contact."""
             slip_state = None
             if self._lagged:
                 state = context.get_continuous_state_vector()
                 slip_state = state.CopyToVector().tolist()
-            return self._law.contact(
-                self._wheel.Eval(context).tolist(), slip_state, self._factors(context)
+            wheel = self._wheel.Eval(context).tolist()
+            value.set_value(
+                self._law.contact(wheel, slip_state, self._factors(context))
             )
 
         def _calc_wrench(self, context, output):
-            output.SetFromVector(self._contact(context)[:6])
+            output.SetFromVector(self._contact.Eval(context)[:6])
 
         def _calc_contact(self, context, output):
-            values = self._contact(context)
+            values = self._contact.Eval(context)
             deflection, fz, ft, fl, slip, slide, travel = values[6:13]
             angle = 0.0 * deflection
             if deflection > 0.0 and (slide != 0.0 or travel != 0.0):
@@ -126,12 +136,12 @@ def Tire_(T):
             )
 
         def _calc_dissipated_power(self, context, output):
-            output.SetAtIndex(0, self._contact(context)[13])
+            output.SetAtIndex(0, self._contact.Eval(context)[13])
 
         def DoCalcTimeDerivatives(self, context, derivatives):
             if self._lagged:
                 derivatives.get_mutable_vector().SetFromVector(
-                    self._contact(context)[14:16]
+                    self._contact.Eval(context)[14:16]
                 )
 
     return Impl
