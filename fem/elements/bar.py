@@ -97,6 +97,11 @@ class Bar(DenseBlock):
     def _uncondensed(self) -> Float64:
         return bar_stiffness(self.geometry.length, self.section, self.material)
 
+    @property
+    def end_stiffness(self) -> Float64:
+        """(e, 12, 12) stiffness at the ends in element axes, before pins release."""
+        return self._uncondensed
+
     @cached_property
     def _at_ends(self) -> Float64:
         return condense(self._uncondensed, self.released)[0]

@@ -103,6 +103,11 @@ class Beam(DenseBlock):
         compliance = section_compliance(self.section, self.material)
         return beam_stiffness(self.geometry.length, compliance)
 
+    @property
+    def end_stiffness(self) -> Float64:
+        """(e, 12, 12) stiffness at the ends in element axes, before pins release."""
+        return self._uncondensed
+
     @cached_property
     def _at_ends(self) -> Float64:
         return condense(self._uncondensed, self.released)[0]

@@ -1,0 +1,238 @@
+"""Dynamic excitation: load patterns times functions of time, initial state, steps."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+import scipy.sparse as sp
+
+from fem.deck.case_control import Subcase
+from fem.errors import InputError
+from fem.loads.static import CARDS, static_load
+from fem.loads.time_functions import Delayed, Pulse, Table, TimeFunction
+from fem.points import Points
+from fem.tables import where
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Excitation:
+    """P(t) = sum of patterns times functions, g-set, displacement frames.
+
+    Attributes:
+        pattern: (size, k) sparse.
+        functions: k functions of time.
+    """
+
+    pattern: sp.csr_matrix
+    functions: tuple[TimeFunction, ...]
+
+    def evaluate(self, time: npt.ArrayLike) -> Float64:
+        """Factors (k, t) at times (t,) s."""
+        time = np.asarray(time, dtype=np.float64)
+        if not self.functions:
+            return np.zeros((0, len(time)))
+        return np.stack([function(time) for function in self.functions])
+
+
+def dynamic_excitation(
+    deck: "Deck",
+    points: Points,
+    subcase: Subcase,
+    mass_gg: sp.spmatrix | sp.sparray | None = None,
+) -> Excitation:
+    """Excitation that a subcase selects with DLOAD (and LOADSET).
+
+    EXCITEID means DAREA cards and, with LOADSET, the static loads that LSEQ names,
+    without it the static load set of that number.
+
+    Args:
+        deck, points: the model.
+        subcase: what is selected; DLOAD 0 means no load.
+        mass_gg: as for `static_load`.
+
+    Raises:
+        InputError: enforced motion (TYPE other than LOAD), undefined sets or tables.
+    """
+    columns: list[Float64] = []
+    functions: list[TimeFunction] = []
+    factors = _factors(deck, subcase.dload) if subcase.dload else {}
+    for name in ("TLOAD1", "TLOAD2"):
+        rows = deck.cards[name]
+        for _, row in rows[rows["sid"].isin(factors)].iterrows():
+            function = _function(deck, name, row)
+            spatial = factors[row["sid"]] * _pattern(
+                deck, points, subcase, name, row, mass_gg
+            )
+            for delay, part in _split(deck, points, row, spatial):
+                columns.append(part)
+                functions.append(Delayed(function, delay) if delay else function)
+    pattern = np.stack(columns, axis=1) if columns else np.zeros((points.size, 0))
+    return Excitation(pattern=sp.csr_matrix(pattern), functions=tuple(functions))
+
+
+def _factors(deck: "Deck", dload: int) -> dict[int, float]:
+    """TLOAD sets and their factors."""
+    table = deck.cards["DLOAD"]
+    cards = table[table["sid"] == dload]
+    factors: dict[int, float] = {}
+    for _, row in cards.iterrows():
+        for scale, lid in zip(row["scales"], row["lids"]):
+            factors[lid] = factors.get(lid, 0.0) + row["s"] * scale
+    if cards.empty:
+        factors[dload] = 1.0
+    known = {*deck.cards["TLOAD1"]["sid"], *deck.cards["TLOAD2"]["sid"]}
+    absent = sorted(set(factors) - known)
+    if absent:
+        raise InputError(
+            f"{deck.path}: DLOAD {dload}: {lid} is no TLOAD1 or TLOAD2"
+            for lid in absent
+        )
+    return factors
+
+
+def _function(deck: "Deck", name: str, row: pd.Series) -> TimeFunction:
+    if row["type"] != "LOAD":
+        raise InputError(
+            f"{where(name, row)}: TYPE {row['type']} (enforced motion) is not supported,"
+            " expected LOAD"
+        )
+    if name == "TLOAD1":
+        return table_function(deck, int(row["tid"]))
+    if not row["t2"] > row["t1"]:
+        raise InputError(
+            f"{where(name, row)}: T1 {row['t1']:g}, T2 {row['t2']:g} must ascend"
+        )
+    if row["b"] < 0.0:
+        raise InputError(f"{where(name, row)}: B {row['b']:g}, expected 0 or more")
+    return Pulse(
+        start=float(row["t1"]),
+        end=float(row["t2"]),
+        frequency=float(row["f"]),
+        phase=float(row["p"]),
+        growth=float(row["c"]),
+        power=float(row["b"]),
+    )
+
+
+def table_function(deck: "Deck", tid: int) -> Table:
+    """TABLED1 of that id.
+
+    Raises:
+        InputError: it does not exist, or has a logarithm of what is not positive.
+    """
+    tables = deck.cards["TABLED1"]
+    found = tables[tables["tid"] == tid]
+    if found.empty:
+        raise InputError(f"{deck.path}: TABLED1 {tid} is not defined")
+    row = found.iloc[0]
+    for axis, values in (("xaxis", row["xs"]), ("yaxis", row["ys"])):
+        if row[axis] == "LOG" and not (values > 0.0).all():
+            raise InputError(
+                f"{where('TABLED1', row)}: {axis.upper()} LOG needs positive values"
+            )
+    return Table(
+        x=row["xs"],
+        y=row["ys"],
+        log_x=row["xaxis"] == "LOG",
+        log_y=row["yaxis"] == "LOG",
+        flat=bool(row["extrap"]),
+    )
+
+
+def _pattern(
+    deck: "Deck",
+    points: Points,
+    subcase: Subcase,
+    name: str,
+    row: pd.Series,
+    mass_gg: sp.spmatrix | sp.sparray | None,
+) -> Float64:
+    """Spatial distribution (size,) that EXCITEID stands for."""
+    excite = int(row["exciteid"])
+    total = np.zeros(points.size)
+    darea = deck.cards["DAREA"]
+    darea = darea[darea["sid"] == excite]
+    dof = points.dof(darea["id"].to_numpy(np.int64), darea["c"].to_numpy(np.int64))
+    np.add.at(total, dof, darea["a"].to_numpy(np.float64))
+    lids = _static_sets(deck, subcase.loadset, excite)
+    if darea.empty and not lids:
+        raise InputError(
+            f"{where(name, row)}: EXCITEID {excite} has no DAREA"
+            + (f" and no LSEQ in LOADSET {subcase.loadset}" if subcase.loadset else "")
+            + ", no static load of that number"
+        )
+    for lid in lids:
+        total += static_load(deck, points, lid, mass_gg)
+    return total
+
+
+def _static_sets(deck: "Deck", loadset: int, excite: int) -> list[int]:
+    """Static load sets behind an EXCITEID."""
+    if loadset:
+        lseq = deck.cards["LSEQ"]
+        chosen = lseq[(lseq["sid"] == loadset) & (lseq["exciteid"] == excite)]
+        return [int(lid) for lid in chosen["lid"] if lid]
+    names = (*CARDS, "LOAD")
+    used = any((deck.cards[name]["sid"] == excite).any() for name in names)
+    return [excite] if used else []
+
+
+def _split(
+    deck: "Deck", points: Points, row: pd.Series, pattern: Float64
+) -> list[tuple[float, Float64]]:
+    """Parts of a pattern with one delay each."""
+    delays = np.full(points.size, float(row["delay"]))
+    if row["delayid"]:
+        table = deck.cards["DELAY"]
+        cards = table[table["sid"] == row["delayid"]]
+        if cards.empty:
+            raise InputError(
+                f"{row['file']}:{row['line']}: DELAY {row['delayid']} is not defined"
+            )
+        dof = points.dof(cards["id"].to_numpy(np.int64), cards["c"].to_numpy(np.int64))
+        delays[dof] = cards["t"].to_numpy(np.float64)
+    used = np.flatnonzero(pattern)
+    parts = []
+    for delay in np.unique(delays[used]).tolist():
+        parts.append((delay, np.where(delays == delay, pattern, 0.0)))
+    return parts
+
+
+def initial_conditions(
+    deck: "Deck", points: Points, subcase: Subcase
+) -> tuple[Float64, Float64]:
+    """Displacements and velocities (size,) at t = 0 that IC selects, else zero."""
+    u0, v0 = np.zeros(points.size), np.zeros(points.size)
+    if subcase.ic:
+        table = deck.cards["TIC"]
+        rows = table[table["sid"] == subcase.ic]
+        if rows.empty:
+            raise InputError(f"{deck.path}: TIC {subcase.ic} is not defined")
+        dof = points.dof(rows["id"].to_numpy(np.int64), rows["c"].to_numpy(np.int64))
+        u0[dof], v0[dof] = rows["u0"].to_numpy(float), rows["v0"].to_numpy(float)
+    return u0, v0
+
+
+def time_steps(deck: "Deck", subcase: Subcase) -> list[tuple[int, float, int]]:
+    """Rows (count, step in s, output stride) of the TSTEP that a subcase selects.
+
+    Raises:
+        InputError: it selects none, or one that is not there.
+    """
+    table = deck.cards["TSTEP"]
+    found = table[table["sid"] == subcase.tstep]
+    if found.empty:
+        raise InputError(
+            f"{deck.path}: subcase {subcase.id}: TSTEP = {subcase.tstep or 'nothing'}, "
+            f"expected one of {sorted(table['sid']) or 'none in the deck'}"
+        )
+    row = found.iloc[0]
+    return list(zip(row["counts"], row["steps"], row["outputs"]))

@@ -1,0 +1,251 @@
+"""PLOAD2 and PLOAD4: pressure on shells and on faces of solids.
+
+Positive pressure acts along the normal of a shell (right-hand rule round its grids)
+and into a solid, unless PLOAD4 gives a direction.
+"""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from fem.errors import InputError
+from fem.loads.faces import Faces, face_forces
+from fem.points import Points
+from fem.tables import where
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+_SHELLS = {"CQUAD4": 4, "CTRIA3": 3, "CSHEAR": 4}
+# Faces of solids: corners in turn, outward or inward; mid-sides by pairs of corners.
+_FACES: dict[str, tuple[tuple[int, ...], ...]] = {
+    "CHEXA": (
+        *((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4)),
+        *((1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+    ),
+    "CPENTA": ((0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    "CTETRA": ((0, 1, 2), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
+    "CPYRAM": ((0, 1, 2, 3), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+}
+_EDGES: dict[str, tuple[tuple[int, int], ...]] = {
+    "CHEXA": (
+        *((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5)),
+        *((2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)),
+    ),
+    "CPENTA": (
+        *((0, 1), (1, 2), (2, 0), (0, 3), (1, 4), (2, 5)),
+        *((3, 4), (4, 5), (5, 3)),
+    ),
+    "CTETRA": ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    "CPYRAM": ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
+}
+_CORNERS = {"CHEXA": 8, "CPENTA": 6, "CTETRA": 4, "CPYRAM": 5}
+
+
+@dataclass
+class _Collected:
+    """Faces as they are found."""
+
+    corners: list[Int64] = field(default_factory=list)
+    middles: list[Int64] = field(default_factory=list)
+    pressure: list[Float64] = field(default_factory=list)
+    direction: list[Float64] = field(default_factory=list)
+
+    def add(self, corners, middles, pressure, direction) -> None:
+        for name, value in zip(
+            ("corners", "middles", "pressure", "direction"),
+            (corners, middles, pressure, direction),
+        ):
+            getattr(self, name).append(np.atleast_2d(value))
+
+    def faces(self, n: int) -> Faces:
+        ids = np.zeros((0, n), np.int64)
+        return Faces(
+            corners=np.concatenate([ids, *self.corners]),
+            middles=np.concatenate([ids, *self.middles]),
+            pressure=np.concatenate([np.zeros((0, n)), *self.pressure]),
+            direction=np.concatenate([np.zeros((0, 3)), *self.direction]),
+        )
+
+
+def pload2(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Float64]:
+    """Rows of the g-set and values of PLOAD2 cards."""
+    rows = rows.assign(
+        **{f"p{k}": rows["p"] for k in (1, 2, 3, 4)},
+        **dict.fromkeys(("cid", "g1", "g34"), 0),
+        **dict.fromkeys(("n1", "n2", "n3"), 0.0),
+        sorl="SURF",
+    )
+    return _pressure(deck, points, rows, "PLOAD2")
+
+
+def pload4(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Float64]:
+    """Rows of the g-set and values of PLOAD4 cards.
+
+    Raises:
+        InputError: edge loads (SORL LINE), grids that belong to no face.
+    """
+    lines = rows[rows["sorl"] != "SURF"]
+    if len(lines):
+        raise InputError(
+            f"{where('PLOAD4', row)}: SORL {row['sorl']} is not supported, expected SURF"
+            for _, row in lines.iterrows()
+        )
+    return _pressure(deck, points, rows, "PLOAD4")
+
+
+def _pressure(
+    deck: "Deck", points: Points, rows: pd.DataFrame, card: str
+) -> tuple[Int64, Float64]:
+    loads = _per_element(rows)
+    found = {3: _Collected(), 4: _Collected()}
+    for name, n in _SHELLS.items():
+        _add_shells(deck.cards[name], n, loads, points, found[n])
+    problems: list[str] = []
+    for name in _FACES:
+        _add_solids(deck.cards[name], name, loads, points, found, problems, card)
+    if problems:
+        raise InputError(problems)
+    parts = [face_forces(points, found[n].faces(n)) for n in (3, 4)]
+    at = np.concatenate([part[0] for part in parts])
+    forces = np.concatenate([part[1] for part in parts])
+    local = np.einsum("nji,nj->ni", points.rotation[at], forces)
+    return (6 * at[:, None] + np.arange(3)).ravel(), local.ravel()
+
+
+def _per_element(rows: pd.DataFrame) -> pd.DataFrame:
+    """One row per loaded element, `eid`."""
+    counts = [len(eids) for eids in rows["eids"]]
+    loads = rows.loc[rows.index.repeat(counts)].reset_index(drop=True)
+    return loads.assign(eid=np.concatenate(list(rows["eids"])).astype(np.int64))
+
+
+def _matching(
+    table: pd.DataFrame, loads: pd.DataFrame
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Elements of a table and the loads on them, row by row."""
+    eids = table["eid"].to_numpy(np.int64)
+    order = np.argsort(eids)
+    wanted = loads["eid"].to_numpy()
+    at = np.searchsorted(eids[order], wanted)
+    at[at == len(eids)] = 0
+    hit = eids[order][at] == wanted if len(eids) else np.zeros(len(wanted), bool)
+    return table.iloc[order[at[hit]]] if len(eids) else table, loads[hit]
+
+
+def _add_shells(
+    table: pd.DataFrame,
+    n: int,
+    loads: pd.DataFrame,
+    points: Points,
+    found: _Collected,
+) -> None:
+    elements, loads = _matching(table, loads)
+    if elements.empty:
+        return
+    corners = elements[[f"g{k + 1}" for k in range(n)]].to_numpy(np.int64)
+    pressure = loads[[f"p{k + 1}" for k in range(n)]].to_numpy(np.float64)
+    centre = points.xyz[points.rows(corners)].mean(axis=1)
+    found.add(
+        corners, np.zeros_like(corners), pressure, _directions(loads, points, centre)
+    )
+
+
+def _directions(loads: pd.DataFrame, points: Points, at: Float64) -> Float64:
+    """(n, 3) unit vectors of the loads, NaN where none is given."""
+    vectors = loads[["n1", "n2", "n3"]].to_numpy(np.float64)
+    cid = loads["cid"].to_numpy(np.int64)
+    basic = points.frames.vectors_to_basic(cid, vectors, at)
+    length = np.linalg.norm(basic, axis=1, keepdims=True)
+    safe = np.where(length > 0.0, length, 1.0)
+    return np.where(length > 0.0, basic / safe, np.nan)
+
+
+def _add_solids(
+    table: pd.DataFrame,
+    name: str,
+    loads: pd.DataFrame,
+    points: Points,
+    found: dict[int, _Collected],
+    problems: list[str],
+    card: str,
+) -> None:
+    elements, loads = _matching(table, loads)
+    if elements.empty:
+        return
+    nodes_of = list(elements["nodes"])
+    centres = np.array(
+        [points.xyz[points.rows(n[: _CORNERS[name]])].mean(axis=0) for n in nodes_of]
+    )
+    directions = _directions(loads, points, centres)
+    given = loads[["g1", "g34"]].to_numpy(np.int64)
+    pressures = loads[["p1", "p2", "p3", "p4"]].to_numpy(np.float64)
+    for k, nodes in enumerate(nodes_of):
+        face = _face(name, nodes, *given[k].tolist())
+        if face is None:
+            row = loads.iloc[k]
+            problems.append(
+                f"{where(card, row)}: grids {given[k, 0]}, {given[k, 1]} name no face "
+                f"of {name} {row['eid']}"
+            )
+            continue
+        face = _inward(face, nodes, int(given[k, 0]), centres[k], points)
+        middles = [
+            _middle(name, nodes, a, b) for a, b in zip(face, face[1:] + face[:1])
+        ]
+        n = len(face)
+        found[n].add(nodes[list(face)], middles, pressures[k, :n], directions[k])
+
+
+def _face(name: str, nodes: Int64, g1: int, g34: int) -> tuple[int, ...] | None:
+    """The face that PLOAD4 means by G1 and G3 or G4."""
+    corners = nodes[: _CORNERS[name]].tolist()
+    if g1 not in corners or (g34 and g34 not in corners):
+        return None
+    a = corners.index(g1)
+    b = corners.index(g34) if g34 else -1
+    for face in _FACES[name]:
+        if a not in face:
+            continue
+        if name == "CTETRA":
+            chosen = b >= 0 and b not in face
+        elif len(face) == 3 and name == "CPENTA":
+            chosen = b < 0
+        elif len(face) == 3:  # a pyramid's side, by its two grids at the base
+            chosen = b in face and 4 not in (a, b) and _next_to(a, b)
+        else:
+            chosen = b in face and abs(face.index(a) - face.index(b)) == 2
+        if chosen:
+            return face
+    return None
+
+
+def _next_to(a: int, b: int) -> bool:
+    """Whether two corners of a pyramid's base share an edge."""
+    return (a - b) % 4 in (1, 3)
+
+
+def _inward(
+    face: tuple[int, ...], nodes: Int64, g1: int, centre: Float64, points: Points
+) -> tuple[int, ...]:
+    """The face from G1 on, in the sense whose normal points into the element."""
+    xyz = points.xyz[points.rows(nodes[list(face)])]
+    normal = np.cross(xyz[1] - xyz[0], xyz[2] - xyz[0])
+    if normal @ (centre - xyz.mean(axis=0)) < 0.0:
+        face = face[::-1]
+    first = [int(nodes[k]) for k in face].index(g1)
+    return face[first:] + face[:first]
+
+
+def _middle(name: str, nodes: Int64, a: int, b: int) -> int:
+    """Grid id of the mid-side between two corners, 0 if there is none."""
+    edges = _EDGES[name]
+    edge = (a, b) if (a, b) in edges else (b, a)
+    index = _CORNERS[name] + edges.index(edge)
+    return int(nodes[index]) if index < len(nodes) else 0

@@ -1,0 +1,116 @@
+"""Static load vectors of a load set, and the combinations of LOAD cards."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+import scipy.sparse as sp
+
+from fem.constraints.spc import freedoms
+from fem.errors import InputError
+from fem.loads.bar_loads import bar_loads
+from fem.loads.concentrated import CONCENTRATED
+from fem.loads.inertial import ACCELERATIONS, accelerations
+from fem.loads.pressure import pload2, pload4
+from fem.points import Points
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+_ON_ELEMENTS = {"PLOAD1": bar_loads, "PLOAD2": pload2, "PLOAD4": pload4}
+CARDS = (*CONCENTRATED, *_ON_ELEMENTS, *ACCELERATIONS)
+
+
+def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
+    """Sets and their factors that a set stands for: itself, or those of a LOAD card.
+
+    Raises:
+        InputError: the set is empty, or a LOAD card combines itself.
+    """
+    load = deck.cards["LOAD"]
+    factors: dict[int, float] = {}
+    cards = load[load["sid"] == sid]
+    for _, row in cards.iterrows():
+        for scale, lid in zip(row["scales"], row["lids"]):
+            factors[lid] = factors.get(lid, 0.0) + row["s"] * scale
+    if cards.empty:
+        factors[sid] = 1.0
+    for number in factors:
+        if not any((deck.cards[name]["sid"] == number).any() for name in _SETS):
+            raise InputError(
+                f"{deck.path}: load set {number} is not defined"
+                + (f" (LOAD {sid})" if number != sid else "")
+            )
+    return factors
+
+
+_SETS = (*CARDS, "SPCD", "DAREA")
+
+
+def static_load(
+    deck: "Deck",
+    points: Points,
+    sid: int,
+    mass_gg: sp.spmatrix | sp.sparray | None = None,
+) -> Float64:
+    """Load vector (size,) of the g-set in the displacement frames.
+
+    Args:
+        deck: the deck.
+        points: its points.
+        sid: a load set or a LOAD card.
+        mass_gg: (size, size) mass, PARAM WTMASS included; GRAV, ACCEL1 and RFORCE need
+            it.
+
+    Raises:
+        InputError: an undefined set or impossible loads.
+    """
+    total = np.zeros(points.size)
+    field = np.zeros(points.size)
+    for number, factor in load_factors(deck, sid).items():
+        for name in CARDS:
+            rows = deck.cards[name]
+            rows = rows[rows["sid"] == number]
+            if rows.empty:
+                continue
+            if name in ACCELERATIONS:
+                field += factor * accelerations(points, name, rows)
+            else:
+                dof, values = _terms(deck, points, name, rows)
+                np.add.at(total, dof, factor * values)
+    if field.any():
+        if mass_gg is None:
+            raise ValueError("GRAV, ACCEL1 and RFORCE need the mass matrix")
+        total += mass_gg @ field
+    return total
+
+
+def _terms(
+    deck: "Deck", points: Points, name: str, rows: pd.DataFrame
+) -> tuple[Int64, Float64]:
+    if name in CONCENTRATED:
+        return CONCENTRATED[name](points, rows)
+    return _ON_ELEMENTS[name](deck, points, rows)
+
+
+def enforced_displacements(
+    deck: "Deck", points: Points, sid: int
+) -> tuple[Int64, Float64]:
+    """Rows of the g-set and displacements that SPCD cards of a load set give.
+
+    The rows must be constrained by the SPC set of the subcase, too.
+    """
+    if not sid:
+        return np.zeros(0, np.int64), np.zeros(0)
+    total: dict[int, float] = {}
+    for number, factor in load_factors(deck, sid).items():
+        rows = deck.cards["SPCD"]
+        rows = rows[rows["sid"] == number]
+        for dof, value in zip(*freedoms(rows, "SPCD", points)):
+            total[int(dof)] = total.get(int(dof), 0.0) + factor * float(value)
+    dofs = sorted(total)
+    return np.array(dofs, np.int64), np.array([total[d] for d in dofs], float)
