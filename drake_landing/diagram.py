@@ -31,6 +31,7 @@ from systems.gear_forces import GearForces
 from systems.modal_body import ModalBody
 from systems.runway import Runway
 from systems.shock_absorber import ShockAbsorber
+from systems.side_load import SideLoad
 from systems.tire import Tire
 from systems.wheel_kinematics import WheelKinematics
 
@@ -150,6 +151,9 @@ def MakeLandingDiagram(
         )
 
     _connect_gears(builder, kinematics, forces, tires, absorbers)
+    for gear in gears:
+        if gear.shock_absorber.bearing_friction > 0:
+            _add_side_load(builder, gear, kinematics, tires, absorbers[gear.name])
     _connect_attachment(builder, plant, airframe, held, kinematics, forces)
     builder.ExportInput(airframe.GetInputPort("external_load"), "external_load")
     systems = {"plant": plant, "airframe": airframe, "attachment": held}
@@ -194,6 +198,21 @@ def _connect_gears(
     for name, absorber in absorbers.items():
         _connect(builder, kinematics, f"strut_{name}", absorber, "strut_state")
         _connect(builder, absorber, "force", forces, f"strut_{name}")
+
+
+def _add_side_load(
+    builder: DiagramBuilder,
+    gear: LandingGear,
+    kinematics: WheelKinematics,
+    tires: dict[str, Any],
+    absorber: Any,
+) -> None:
+    side_load = SideLoad(gear.wheel_names)
+    builder.AddNamedSystem(f"side_load_{gear.name}", side_load)
+    _connect(builder, kinematics, f"strut_axis_{gear.name}", side_load, "strut_axis")
+    for wheel in gear.wheel_names:
+        _connect(builder, tires[wheel], "wrench", side_load, f"tire_{wheel}")
+    _connect(builder, side_load, "side_load", absorber, "side_load")
 
 
 def _connect_attachment(

@@ -23,6 +23,7 @@ class WheelKinematics(LeafSystem):
     | out `wheel_<name>` | 12 | m, -, m/s, rad/s | p_WC of the wheel centre, axle
       direction (y axis of the wheel body), v_WC, ω_WH of the wheel body; all in W |
     | out `strut_<name>` | 2 | m, m/s | stroke and rate, positive in compression |
+    | out `strut_axis_<name>` | 3 | | direction of compression, W |
 
     The plant is a model only: its context lives in a cache entry, as in Drake's
     InverseDynamics.
@@ -71,6 +72,12 @@ class WheelKinematics(LeafSystem):
             self.DeclareVectorOutputPort(
                 f"strut_{name}", 2, self._strut_port(rows), state
             )
+            self.DeclareVectorOutputPort(
+                f"strut_axis_{name}",
+                3,
+                self._axis_port(joint),
+                {self._context.ticket()},
+            )
 
     def _wheel_port(self, i: int):
         def calc(context, output):
@@ -81,6 +88,15 @@ class WheelKinematics(LeafSystem):
     def _strut_port(self, rows: list[int]):
         def calc(context, output):
             output.SetFromVector(self._state.Eval(context)[rows])
+
+        return calc
+
+    def _axis_port(self, joint: PrismaticJoint):
+        frame, axis = joint.frame_on_parent(), joint.translation_axis()
+
+        def calc(context, output):
+            X_WJ = frame.CalcPoseInWorld(self._context.Eval(context))
+            output.SetFromVector(X_WJ.rotation().multiply(axis))
 
         return calc
 

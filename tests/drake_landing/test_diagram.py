@@ -230,6 +230,21 @@ def test_attitude_signs():
     assert_allclose(R_WB.T @ turned, rates, atol=1e-11)
 
 
+def test_bearing_friction_feels_the_side_load():
+    gears = []
+    for gear in aircraft_gears():
+        absorber = gear.shock_absorber.model_copy(update={"bearing_friction": 0.1})
+        gears.append(gear.model_copy(update={"shock_absorber": absorber}))
+    landing = MakeLandingDiagram(aircraft_body(0), gears)
+    run = land(landing, duration=0.06, accuracy=1e-4)
+    friction = run["shock_absorber_main_left.components"][2]
+    drag = run["tire_main_left_left.contact"][2]
+    spinning_up = drag > 0.5 * drag.max()
+    assert friction[spinning_up].min() > 0.1 * drag[spinning_up].min()
+    total = run["energy_budget.total"][0]
+    assert np.abs(total - total[0]).max() < 1e-4 * 0.5 * 72500 * SINK_RATE**2
+
+
 def test_picture_names_the_systems(small):
     picture = small.graphviz()
     for name in ("plant", "airframe", "attachment", "tire_nose_left", "gear_forces"):

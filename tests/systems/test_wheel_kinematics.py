@@ -39,6 +39,9 @@ def test_ports_give_position_axle_and_their_rates():
         stroke, rate = now[f"strut_{name}"]
         assert stroke == struts[name].get_translation(context)
         assert rate == struts[name].get_translation_rate(context)
+        # The piston does not turn in its cylinder: its z axis is the strut's.
+        piston = struts[name].child_body().EvalPoseInWorld(context).rotation()
+        assert_allclose(now[f"strut_axis_{name}"], piston.matrix()[:, 2])
 
 
 def test_a_stroke_lifts_the_axle_toward_the_fitting():
@@ -50,6 +53,7 @@ def test_a_stroke_lifts_the_axle_toward_the_fitting():
     assert_allclose(out["wheel_left"][:3], [0.1, 0.0, -1.3], atol=1e-15)
     assert_allclose(out["strut_left"], [0.2, 0.0])
     assert_allclose(out["wheel_right"][:3], [0.1, 0.0, -1.5], atol=1e-15)
+    assert_allclose(out["strut_axis_left"], [0.0, 0.0, 1.0], atol=1e-15)
 
 
 def test_contexts_do_not_share_state():
