@@ -14,7 +14,6 @@ import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
 from fem.linear_solver import SingularMatrixError, SolverName, factorize
-from fem.modes import rigid_energy
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -66,11 +65,18 @@ def find_mechanisms(
     for number in np.unique(piece[moving.any(axis=1)]) if count > 1 else [0]:
         inside = piece == number
         part = motions * inside[:, None]
-        part = part[:, np.abs(part).max(axis=0) > _MOVES]
+        part = _independent(part[:, np.abs(part).max(axis=0) > _MOVES])
         rows = np.flatnonzero((np.abs(part) > _MOVES).any(axis=1))
         if len(rows):
             found.append(Mechanism(rows, part, len(rows) == int(inside.sum())))
     return found
+
+
+def _independent(motions: Float64) -> Float64:
+    """Independent motions of the same span, largest entry 1."""
+    basis, size, _ = np.linalg.svd(motions, full_matrices=False)
+    basis = basis[:, size > _MOVES * size.max(initial=0.0)]
+    return basis / np.abs(basis).max(axis=0)
 
 
 def _dynamic(stiffness: sp.csr_matrix, mass: sp.csr_matrix) -> sp.csr_matrix:
@@ -114,8 +120,11 @@ def _smallest(
     reduced = vectors.T @ (matrix @ vectors)
     _, rotation = np.linalg.eigh(0.5 * (reduced + reduced.T))
     vectors = vectors @ rotation
-    free = rigid_energy(matrix, vectors) < _NO_ENERGY
-    vectors = vectors[:, free]
+    # Rows without any stiffness have no parts to compare with: the scale serves.
+    parts = np.einsum("ij,ij->j", np.abs(vectors), abs(matrix) @ np.abs(vectors))
+    size = np.maximum(parts, scale @ vectors**2)
+    energy = np.abs(np.einsum("ij,ij->j", vectors, matrix @ vectors))
+    vectors = vectors[:, energy < _NO_ENERGY * size]
     return vectors / np.abs(vectors).max(axis=0, initial=1e-300)
 
 
