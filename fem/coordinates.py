@@ -22,7 +22,7 @@ Int64 = npt.NDArray[np.int64]
 
 Kind = Literal["R", "C", "S"]
 
-# A point nearer to the z axis than this share of its distance from the origin lies on it.
+# A point this near to the z axis, as share of its distance from the origin, lies on it.
 _ON_AXIS = 1e-12
 
 
@@ -66,7 +66,7 @@ def rectangular(kind: Kind, x: Float64) -> Float64:
 
 
 def local_triads(kind: Kind, local: Float64) -> Float64:
-    """(..., 3, 3) axes at rectangular local positions, in the local rectangular axes."""
+    """(..., 3, 3) axes at local rectangular positions, in local rectangular axes."""
     triads = np.broadcast_to(np.eye(3), (*local.shape[:-1], 3, 3)).copy()
     if kind == "R":
         return triads

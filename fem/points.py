@@ -139,7 +139,7 @@ class Points:
         return f"scalar point {self.spoint_id[int(dof) - 6 * len(self.grid_id)]}"
 
     def basic_rotation(self) -> sp.csr_matrix:
-        """(g-set, g-set) R with u_basic = R u_g: block-diagonal, identity at SPOINTs."""
+        """(g-set, g-set) R with u_basic = R u_g, block-diagonal, 1 at scalar points."""
         return self._basic_rotation
 
     @cached_property

@@ -1,7 +1,7 @@
 """Area, torsion and shear properties of a solid or thin-walled cross-section.
 
-The section is cut into quadrilaterals with nine-node elements. Torsion is Saint-Venant's
-warping problem, shear the Poisson problem of a bar bent by a transverse force with
+The section is cut into nine-node quadrilaterals. Torsion is Saint-Venant's warping
+problem, shear the Poisson problem of a bar bent by a transverse force with
 Poisson's ratio 0; the shear centre is Trefftz's. See W. D. Pilkey, Analysis and Design
 of Elastic Beams, chapters 5 and 6.
 

@@ -245,7 +245,7 @@ def _quantity(name: str) -> str | None:
 
 
 def _number(text: str) -> int:
-    first = text.split()[0] if text.split() else ""
+    first = (re.split(r"[\s,]+", text) or [""])[0]
     if not first.isascii() or not first.isdigit() or len(first) > 12:
         raise ValueError(f"found '{text}', expected an integer")
     return int(first)

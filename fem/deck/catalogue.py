@@ -127,6 +127,11 @@ ELEMENTS = tuple(
     ]
 )
 
+# Property tables whose ids are their own; PSHELL and PCOMP share theirs.
+SINGLE_PROPERTIES = tuple(
+    "PBAR PBEAM PROD PTUBE PELAS PDAMP PMASS PVISC PBUSH PSHEAR PSOLID".split()
+)
+
 # Element column -> tables that may hold the property.
 PROPERTIES: dict[str, tuple[str, ...]] = {
     "CBAR": ("PBAR",),

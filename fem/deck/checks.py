@@ -1,6 +1,6 @@
 """Checks of a whole deck: references, duplicates, selected sets, coordinate systems."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -8,9 +8,8 @@ import pandas as pd
 
 from fem.coordinates import resolve
 from fem.deck import catalogue
+from fem.deck.cleanup import ids
 from fem.deck.deck import Deck
-from fem.deck.lexer import RawCard
-from fem.deck.values import Malformed, integer
 from fem.errors import InputError
 
 Int64 = npt.NDArray[np.int64]
@@ -19,36 +18,10 @@ Tables = Mapping[str, pd.DataFrame]
 _MOST = 20  # problems of one kind that are listed
 
 
-def drop_ignored(
-    tables: Tables, ignored: Sequence[RawCard], notices: list[str]
-) -> dict[str, pd.DataFrame]:
-    """Tables without the loads on elements that the user wants ignored."""
-    eids = set()
-    for card in ignored:
-        try:
-            eids.add(integer(card.field(1)))
-        except Malformed:
-            continue
-    changed = {}
-    for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
-        table = tables[name]
-        known = _ids(tables, targets, "eid")
-        lost = np.array(sorted(eids - set(known.tolist())), dtype=np.int64)
-        if table.empty or not len(lost):
-            continue
-        keep = [not np.isin(value, lost).any() for value in table[column]]
-        if not all(keep):
-            changed[name] = table[keep].reset_index(drop=True)
-            notices.append(
-                f"{len(keep) - sum(keep)} {name} on ignored elements are left out"
-            )
-    return changed
-
-
-def check(deck: Deck, sol: int, notices: list[str]) -> list[str]:
+def check(deck: Deck, sol: int) -> list[str]:
     """All problems of a deck whose single cards are well-formed."""
     tables = deck.cards
-    problems = _no_points(deck) + _duplicates(deck, notices)
+    problems = _no_points(deck) + _duplicates(tables)
     if problems:
         return problems
     problems += _grids(tables) + _properties(tables) + _materials(tables)
@@ -68,9 +41,8 @@ def _no_points(deck: Deck) -> list[str]:
     return []
 
 
-def _duplicates(deck: Deck, notices: list[str]) -> list[str]:
-    problems: list[str] = []
-    cards = deck.cards
+def _duplicates(cards: Tables) -> list[str]:
+    """Ids that are given more than once."""
     groups: list[tuple[str, tuple[str, ...]]] = [
         ("id", ("GRID", "SPOINT")),
         ("cid", ("CORD",)),
@@ -79,62 +51,19 @@ def _duplicates(deck: Deck, notices: list[str]) -> list[str]:
         ("tid", ("TABLED1",)),
         ("sid", ("TSTEP",)),
         *(("eid", (name,)) for name in catalogue.ELEMENTS),
-        *(("pid", (f"P{name}",)) for name in _SINGLE_PROPERTIES),
+        *(("pid", (name,)) for name in catalogue.SINGLE_PROPERTIES),
     ]
+    problems: list[str] = []
     for column, names in groups:
         table = pd.concat(
-            [cards[name][[column, "file", "line"]].assign(card=name) for name in names],
-            ignore_index=True,
+            [cards[n][[column, "file", "line"]].assign(card=n) for n in names]
         )
-        again = table.duplicated(column, keep="first").to_numpy()
-        if not again.any():
-            continue
-        if len(names) == 1 or not cards["GRID"].empty:
-            again &= ~_identical(cards, column, names, table, notices)
-        for row in table[again].head(_MOST).itertuples():
+        for _, row in table[table.duplicated(column)].head(_MOST).iterrows():
             problems.append(
-                f"{row.file}:{row.line}: {row.card} {getattr(row, column)} is defined "
+                f"{row['file']}:{row['line']}: {row['card']} {row[column]} is defined "
                 "more than once"
             )
     return problems
-
-
-_SINGLE_PROPERTIES = [
-    "BAR",
-    "BEAM",
-    "ROD",
-    "TUBE",
-    "ELAS",
-    "DAMP",
-    "MASS",
-    "VISC",
-    "BUSH",
-    "SHEAR",
-    "SOLID",
-]
-
-
-def _identical(
-    cards: dict[str, pd.DataFrame] | Tables,
-    column: str,
-    names: tuple[str, ...],
-    table: pd.DataFrame,
-    notices: list[str],
-) -> npt.NDArray[np.bool_]:
-    """Which repeated GRID and CORD cards say the same as the first; they are dropped."""
-    same = np.zeros(len(table), dtype=bool)
-    for name in names:
-        if name not in ("GRID", "CORD", "SPOINT"):
-            continue
-        of_card = (table["card"] == name).to_numpy()
-        whole = cards[name].drop(columns=["file", "line"])
-        repeated = whole.duplicated(keep="first").to_numpy()
-        same[of_card] = repeated
-        if repeated.any():
-            notices.append(f"{int(repeated.sum())} repeated {name} cards are alike")
-            assert isinstance(cards, dict)
-            cards[name] = cards[name][~repeated].reset_index(drop=True)
-    return same
 
 
 def _flat(values: pd.Series) -> tuple[Int64, Int64]:
@@ -147,10 +76,6 @@ def _flat(values: pd.Series) -> tuple[Int64, Int64]:
     return flat.astype(np.int64), np.repeat(np.arange(len(values)), lengths)
 
 
-def _ids(tables: Tables, names: Iterable[str], column: str) -> Int64:
-    return np.concatenate([tables[name][column].to_numpy(np.int64) for name in names])
-
-
 def _missing(
     tables: Tables, name: str, column: str, known: Int64, what: str
 ) -> list[str]:
@@ -158,11 +83,9 @@ def _missing(
     table = tables[name]
     if table.empty:
         return []
-    ids, rows = _flat(table[column])
-    bad = (ids > 0) & ~np.isin(ids, known)
-    if "thru" in table:
-        bad &= ~table["thru"].to_numpy()[rows]
-    found = list(dict.fromkeys(zip(rows[bad].tolist(), ids[bad].tolist())))
+    values, rows = _flat(table[column])
+    bad = (values > 0) & ~np.isin(values, known)
+    found = list(dict.fromkeys(zip(rows[bad].tolist(), values[bad].tolist())))
     key = next(k for k in ("eid", "pid", "mid", "sid", "id", "name") if k in table)
     problems = [
         f"{table['file'][row]}:{table['line'][row]}: {name} {table[key][row]}: "
@@ -190,7 +113,7 @@ def _grids(tables: Tables) -> list[str]:
 def _properties(tables: Tables) -> list[str]:
     problems: list[str] = []
     for name, targets in catalogue.PROPERTIES.items():
-        known = _ids(tables, targets, "pid")
+        known = ids(tables, targets, "pid")
         what = " or ".join(targets)
         problems += _missing(tables, name, "pid", known, what)
     return problems
@@ -199,7 +122,7 @@ def _properties(tables: Tables) -> list[str]:
 def _materials(tables: Tables) -> list[str]:
     problems: list[str] = []
     for name, (columns, targets) in catalogue.MATERIALS.items():
-        known = _ids(tables, targets, "mid")
+        known = ids(tables, targets, "mid")
         for column in columns:
             what = " or ".join(targets)
             problems += _missing(tables, name, column, known, what)
@@ -218,7 +141,7 @@ def _frames(tables: Tables) -> list[str]:
 def _loaded(tables: Tables) -> list[str]:
     problems: list[str] = []
     for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
-        known = _ids(tables, targets, "eid")
+        known = ids(tables, targets, "eid")
         what = f"element ({', '.join(targets)})"
         problems += _missing(tables, name, column, known, what)
     return problems
@@ -256,7 +179,7 @@ def _sets(tables: Tables) -> list[str]:
     }
     for name, (column, targets) in combined.items():
         problems += _missing(
-            tables, name, column, _ids(tables, targets, "sid"), f"{targets[0]} set"
+            tables, name, column, ids(tables, targets, "sid"), f"{targets[0]} set"
         )
     known = tables["TABLED1"]["tid"].to_numpy(np.int64)
     return problems + _missing(tables, "TLOAD1", "tid", known, "TABLED1")
@@ -283,12 +206,13 @@ def _selected(deck: Deck, sol: int) -> list[str]:
     for attribute, names, solutions in _SELECTED:
         if solutions and sol not in solutions:
             continue
-        known = set(_ids(deck.cards, names, "sid").tolist())
+        known = {0, *ids(deck.cards, names, "sid").tolist()}
         for subcase in deck.case_control:
             number = getattr(subcase, attribute)
-            if number and number not in known and not subcase.superelement:
+            if number not in known and not subcase.superelement:
                 problems.append(
-                    f"{deck.path}: subcase {subcase.id}: {attribute.upper()} = {number} "
-                    f"is not defined; expected a set of {', '.join(names[:3])}"
+                    f"{deck.path}: subcase {subcase.id}: {attribute.upper()} = "
+                    f"{number} is not defined; expected a set of "
+                    f"{', '.join(names[:3])}"
                 )
     return list(dict.fromkeys(problems))

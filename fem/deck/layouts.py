@@ -107,7 +107,11 @@ LAYOUTS: dict[str, str] = {
     "EIGRL": (
         "sid:i v1:f=nan v2:f=nan nd:i=0 msglvl:i=0 maxset:i=0 shfscl:f=0. norm:s=MASS"
     ),
-    "EIGR": "sid:i method:s f1:f=nan f2:f=nan ne:i=0 nd:i=0 - - norm:s=MASS g:i=0 c:i=0",
+    "EIGR": (
+        "sid:i method:s f1:f=nan f2:f=nan ne:i=0 nd:i=0 - - norm:s=MASS g:i=0 c:i=0"
+    ),
+    # partitioned superelements
+    "SEBULK": "seid:i type:s rseid:i=0 method:s=AUTO tol:f=1.E-5 loc:s=YES unitno:i=0",
     "PLOTEL": "eid:i g1:i g2:i -",
     # defaults for other cards
     "GRDSET": "- cp:i=0 - - - cd:i=0 ps:c= -",

@@ -19,7 +19,8 @@ from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
 from fem.deck.cards.from_pynastran import EXTRACTORS
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT
-from fem.deck.checks import check, drop_ignored
+from fem.deck.checks import check
+from fem.deck.cleanup import clean
 from fem.deck.deck import Deck
 from fem.deck.executive import read_executive
 from fem.deck.lexer import Bulk, RawCard, read_cards
@@ -63,12 +64,16 @@ def _external(name: str) -> Callable[[RawCard], list[dict[str, Any]]]:
 EXTERNAL: dict[str, RowReader] = {name: _external(name) for name in _CLASSES}
 
 
-def read_deck(path: str | Path, *, ignore: Collection[str] = ()) -> Deck:
+def read_deck(
+    path: str | Path, *, ignore: Collection[str] = (), superelements: bool = False
+) -> Deck:
     """Read a Nastran deck with its INCLUDE files.
 
     Args:
         path: the deck; a file of bulk data alone (punch) will do.
         ignore: names of unsupported cards to go on without; recorded in the notices.
+        superelements: read BEGIN SUPER=n sections, too, for callers that put the
+            partitions together; else they are refused.
 
     Raises:
         InputError: everything that is wrong with the deck, each with file and line.
@@ -83,6 +88,10 @@ def read_deck(path: str | Path, *, ignore: Collection[str] = ()) -> Deck:
     problems = [*sections.problems, *executive.problems, *case.problems]
     bulk = read_cards(sections.bulk)
     deck = _deck(path, bulk, case, executive.sol, ignore, problems, notices)
+    if sections.superelements and not superelements:
+        numbers = ", ".join(map(str, sections.superelements))
+        problems.append(f"{path}: superelements (BEGIN SUPER = {numbers})")
+        problems[-1] += " are not supported here; expected one bulk data section"
     parts = _superelements(path, sections, executive.sol, ignore, problems)
     if problems:
         raise InputError(problems)
@@ -120,8 +129,8 @@ def _deck(
     tables = make_tables(groups, EXTERNAL, problems, notices)
     deck = Deck(path=path, cards=tables, params=params, case_control=case.subcases)
     if not problems:
-        tables.update(drop_ignored(tables, ignored, notices))
-        problems += check(deck, sol, notices)
+        clean(tables, ignored, notices)
+        problems += check(deck, sol)
     return deck
 
 

@@ -126,6 +126,9 @@ COLUMNS: dict[str, str] = {
     "TSTEP": "sid counts* steps* outputs*",
     "EIGRL": "sid v1 v2 nd msglvl maxset shfscl norm",
     "TABDMP1": "tid type fs* gs*",
+    # partitioned superelements: SEBULK in the main section, grids joined by SECONCT
+    "SEBULK": "seid type",
+    "SECONCT": "sea seb gidas* gidbs*",
     # output only
     "PLOTEL": "eid g1 g2",
 }

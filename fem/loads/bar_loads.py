@@ -138,7 +138,8 @@ def _positions(rows: pd.DataFrame, length: Float64) -> tuple[Float64, Float64]:
             "and lie on the element"
             for _, row in rows[wrong].iterrows()
         )
-    return np.clip(start, 0.0, 1.0), np.clip(end, 0.0, 1.0)
+    within = np.clip(np.stack([start, end]), 0.0, 1.0)
+    return within[0], within[1]
 
 
 def _directions(rows: pd.DataFrame, lines: _Lines) -> Float64:

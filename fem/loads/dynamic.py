@@ -101,8 +101,8 @@ def _factors(deck: "Deck", dload: int) -> dict[int, float]:
 def _function(deck: "Deck", name: str, row: pd.Series) -> TimeFunction:
     if row["type"] != "LOAD":
         raise InputError(
-            f"{where(name, row)}: TYPE {row['type']} (enforced motion) is not supported,"
-            " expected LOAD"
+            f"{where(name, row)}: TYPE {row['type']} (enforced motion) is not "
+            "supported, expected LOAD"
         )
     if name == "TLOAD1":
         return table_function(deck, int(row["tid"]))
@@ -190,13 +190,12 @@ def _split(
 ) -> list[tuple[float, Float64]]:
     """Parts of a pattern with one delay each."""
     delays = np.full(points.size, float(row["delay"]))
-    if row["delayid"]:
+    sid = int(row["delayid"])
+    if sid:
         table = deck.cards["DELAY"]
-        cards = table[table["sid"] == row["delayid"]]
+        cards = table[table["sid"] == sid]
         if cards.empty:
-            raise InputError(
-                f"{row['file']}:{row['line']}: DELAY {row['delayid']} is not defined"
-            )
+            raise InputError(f"{row['file']}:{row['line']}: DELAY {sid} is not defined")
         dof = points.dof(cards["id"].to_numpy(np.int64), cards["c"].to_numpy(np.int64))
         delays[dof] = cards["t"].to_numpy(np.float64)
     used = np.flatnonzero(pattern)

@@ -47,7 +47,8 @@ def _rotation(points: Points, row: pd.Series) -> Float64:
     w = 2 pi A R and a = 2 pi RACC R about G: -w x (w x r) + a x r.
     """
     axis = points.frames[row["cid"]].axes @ row[["r1", "r2", "r3"]].to_numpy(float)
-    centre = points.xyz[points.rows(row["g"])] if row["g"] else np.zeros(3)
+    grid = int(row["g"])
+    centre = points.xyz[points.rows(grid)] if grid else np.zeros(3)
     r = points.xyz - centre
     spin = 2.0 * np.pi * float(row["a"]) * axis
     turning = 2.0 * np.pi * float(row["racc"]) * axis

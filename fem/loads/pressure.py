@@ -94,7 +94,8 @@ def pload4(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Flo
     lines = rows[rows["sorl"] != "SURF"]
     if len(lines):
         raise InputError(
-            f"{where('PLOAD4', row)}: SORL {row['sorl']} is not supported, expected SURF"
+            f"{where('PLOAD4', row)}: SORL {row['sorl']} is not supported, "
+            "expected SURF"
             for _, row in lines.iterrows()
         )
     return _pressure(deck, points, rows, "PLOAD4")
@@ -131,12 +132,14 @@ def _matching(
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Elements of a table and the loads on them, row by row."""
     eids = table["eid"].to_numpy(np.int64)
+    if not len(eids):
+        return table, loads.iloc[:0]
     order = np.argsort(eids)
     wanted = loads["eid"].to_numpy()
     at = np.searchsorted(eids[order], wanted)
     at[at == len(eids)] = 0
-    hit = eids[order][at] == wanted if len(eids) else np.zeros(len(wanted), bool)
-    return table.iloc[order[at[hit]]] if len(eids) else table, loads[hit]
+    hit = eids[order][at] == wanted
+    return table.iloc[order[at[hit]]], loads.iloc[np.flatnonzero(hit)]
 
 
 def _add_shells(

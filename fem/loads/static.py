@@ -85,7 +85,7 @@ def static_load(
     if field.any():
         if mass_gg is None:
             raise ValueError("GRAV, ACCEL1 and RFORCE need the mass matrix")
-        total += mass_gg @ field
+        total += sp.csr_matrix(mass_gg) @ field
     return total
 
 

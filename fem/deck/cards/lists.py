@@ -166,6 +166,14 @@ def _tstep(f: Fields) -> Rows:
     return [{**row, "steps": sizes, "outputs": outputs}]
 
 
+def _seconct(f: Fields) -> Rows:
+    """Pairs of points that two superelements share; SEIDB 0 is the residual one."""
+    pairs = [(f.integer(k, "GIDA"), f.integer(k + 1, "GIDB")) for k in f.groups(9, 2)]
+    a, b = (np.array(column, dtype=np.int64) for column in zip(*pairs or [(0, 0)]))
+    row = {"sea": f.integer(1, "SEIDA"), "seb": f.integer(2, "SEIDB")}
+    return [{**row, "gidas": a, "gidbs": b}]
+
+
 READERS: dict[str, Callable[[Fields], Rows]] = {
     "SPOINT": _spoint,
     "SPC1": _spc1,
@@ -188,4 +196,5 @@ READERS: dict[str, Callable[[Fields], Rows]] = {
     "PLOAD4": _pload4,
     "ACCEL1": _accel1,
     "TSTEP": _tstep,
+    "SECONCT": _seconct,
 }

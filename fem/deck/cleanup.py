@@ -1,0 +1,80 @@
+"""What is taken out of the tables before they are checked, each with a notice."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from fem.deck import catalogue
+from fem.deck.lexer import RawCard
+from fem.deck.values import Malformed, integer
+
+Tables = dict[str, pd.DataFrame]
+
+_REPEATABLE = ("GRID", "SPOINT", "CORD")
+
+
+def clean(tables: Tables, ignored: Sequence[RawCard], notices: list[str]) -> None:
+    """Change the tables in place.
+
+    Args:
+        tables: all tables of a deck.
+        ignored: cards that the user wants ignored.
+        notices: what was taken out is appended.
+    """
+    for name in _REPEATABLE:
+        _drop_repetitions(tables, name, notices)
+    for name, column in (("SPC", "g"), ("ASET", "id"), ("QSET", "id")):
+        _drop_skipped(tables, name, column)
+    _drop_loads_on(_element_ids(ignored), tables, notices)
+
+
+def ids(tables: Mapping[str, pd.DataFrame], names: Sequence[str], column: str):
+    """Integers of one column of several tables."""
+    return np.concatenate([tables[name][column].to_numpy(np.int64) for name in names])
+
+
+def _drop_repetitions(tables: Tables, name: str, notices: list[str]) -> None:
+    """Points and frames may be given twice if both cards say the same."""
+    table = tables[name]
+    again = table.drop(columns=["file", "line"]).duplicated(keep="first").to_numpy()
+    if again.any():
+        notices.append(f"{int(again.sum())} repeated {name} cards that are alike")
+        tables[name] = table[~again].reset_index(drop=True)
+
+
+def _drop_skipped(tables: Tables, name: str, column: str) -> None:
+    """Points that a THRU skips over need not exist."""
+    table = tables[name]
+    if "thru" not in table:
+        return
+    known = ids(tables, ("GRID", "SPOINT"), "id")
+    absent = table["thru"] & ~np.isin(table[column].to_numpy(np.int64), known)
+    tables[name] = table[~absent].drop(columns="thru").reset_index(drop=True)
+
+
+def _element_ids(cards: Sequence[RawCard]) -> npt.NDArray[np.int64]:
+    found = set()
+    for card in cards:
+        try:
+            found.add(integer(card.field(1)))
+        except Malformed:
+            continue
+    return np.array(sorted(found), dtype=np.int64)
+
+
+def _drop_loads_on(
+    eids: npt.NDArray[np.int64], tables: Tables, notices: list[str]
+) -> None:
+    """Loads on ignored elements go with them."""
+    for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
+        table = tables[name]
+        lost = eids[~np.isin(eids, ids(tables, targets, "eid"))]
+        if table.empty or not len(lost):
+            continue
+        keep = np.array([not np.isin(value, lost).any() for value in table[column]])
+        if not keep.all():
+            tables[name] = table[keep].reset_index(drop=True)
+            count = int((~keep).sum())
+            notices.append(f"{count} {name} on ignored elements are left out")
