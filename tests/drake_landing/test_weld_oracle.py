@@ -133,4 +133,4 @@ def test_attachment_loads_are_the_reactions_of_welds():
     for part in (0, 1):  # forces, moments
         peak = np.abs(expected[:, part]).max()
         assert peak > 1e5
-        assert np.abs(found[:, part] - expected[:, part]).max() < 1e-5 * peak
+        assert np.abs(found[:, part] - expected[:, part]).max() < 1e-8 * peak
