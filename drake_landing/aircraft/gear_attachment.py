@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from drake_landing.aircraft.model import ModelBuilder
 from drake_landing.aircraft.reference_axis import ATTACHMENTS
+from drake_landing.aircraft.ties import tie
 
 PART = "gear attachment"
 
@@ -25,4 +26,4 @@ def attach_gears(model: ModelBuilder, holds: Mapping[str, Sequence[int]]) -> Non
         if len(nodes) == 1:
             model.rigid(PART, nodes[0], "123456", [attachment])
         else:
-            model.average(PART, attachment, nodes)
+            tie(model, PART, attachment, nodes)

@@ -60,7 +60,8 @@ class ModelBuilder:
 
     Ids of elements and properties are handed out from the base of the current part:
     part k has elements and properties from k·100000. `structure` holds mass (kg) and
-    centre (m) of every element with mass, by part.
+    centre (m) of every element with mass, by part; `dependent` the freedoms (grid,
+    component) that UM of a tie has taken.
     """
 
     sections: dict[str, Section] = field(default_factory=dict)
@@ -68,6 +69,7 @@ class ModelBuilder:
     parts: dict[str, list[int]] = field(default_factory=dict)
     elements: int = 0
     structure: dict[str, list[tuple[float, Float64]]] = field(default_factory=dict)
+    dependent: set[tuple[int, int]] = field(default_factory=set)
     _next: dict[str, int] = field(default_factory=dict)
     _properties: dict[str, int] = field(default_factory=dict)
     _per_area: dict[int, float] = field(default_factory=dict)
@@ -216,11 +218,12 @@ class ModelBuilder:
         self._count(part, self._per_length[pid] * length, (pa + pb) / 2 + extra)
 
     def _count(self, part: str, mass: float, centre: Float64) -> None:
-        self.structure.setdefault(part, []).append((mass, centre))
+        if mass:
+            self.structure.setdefault(part, []).append((mass, centre))
 
     def deck(self, title: str, sets: Mapping[int, Sequence[int]], modes: int) -> str:
         """The text of the deck, a normal-modes run of `modes` modes."""
-        control = [f"TITLE = {title}", "ECHO = NONE", "METHOD = 1"]
+        control = [f"TITLE = {title}", "METHOD = 1"]
         for sid, ids in sets.items():
             control += [f"$ set {sid}: {SETS[sid]}", case_set(sid, ids)]
         control.append("DISPLACEMENT(PLOT) = 1")
@@ -243,8 +246,9 @@ def _grid_value(x: float) -> float:
 
 
 def density(material: int) -> float:
-    """Of a material by its id, kg/m³."""
-    return next(m["rho"] for m in facts("materials").values() if m["id"] == material)
+    """Of a material by its id, kg/m³; 0 for the beam models' massless aluminium."""
+    densities = {m["id"]: m["rho"] for m in facts("materials").values()}
+    return densities.get(material, 0.0)
 
 
 def shell_area_centre(p: Float64) -> tuple[float, Float64]:

@@ -26,6 +26,7 @@ class BoxSizing:
         stringer_height: of the stringers, which lie inside of the skin, m.
         bending: ratio of the skin's bending stiffness to that of a plain sheet, for
             sandwich skins.
+        web_bending: the same for stiffened ribs and spar webs.
         material: id.
     """
 
@@ -36,6 +37,7 @@ class BoxSizing:
     cap: Law | None = None
     stringer_height: float = 0.05
     bending: float = 1.0
+    web_bending: float = 1.0
     material: int = 1
 
 
@@ -50,7 +52,7 @@ def add_box_elements(model: ModelBuilder, mesh: BoxMesh, sizing: BoxSizing) -> N
     for number, station in enumerate(mesh.ribs):
         thickness = sizing.rib(number)
         name = f"{_plain(mesh.part)} rib {thickness * 1e3:.1f} mm"
-        pid = model.shell_property(name, sizing.material, thickness)
+        pid = model.shell_property(name, sizing.material, thickness, sizing.web_bending)
         _rib(model, mesh, int(station), pid)
 
 
@@ -91,7 +93,9 @@ def _webs(
     thickness: float,
     sizing: BoxSizing,
 ) -> None:
-    pid = model.shell_property(f"{name}: spar web", sizing.material, thickness)
+    pid = model.shell_property(
+        f"{name}: spar web", sizing.material, thickness, sizing.web_bending
+    )
     for i, sign in ((0, mesh.outward), (-1, -mesh.outward))[: 1 if mesh.wedge else 2]:
         for quad in _quads(mesh.ids[first : last + 1, i], sign):
             model.shell(mesh.part, pid, quad)

@@ -7,6 +7,7 @@ dependent ones instead of the node's, so that a reduction can keep the node.
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from drake_landing.aircraft.geometry import Float64
 from drake_landing.aircraft.model import ModelBuilder
@@ -22,25 +23,30 @@ def tie(model: ModelBuilder, part: str, node: int, grids: Sequence[int]) -> None
         grids: at least three, not on one line.
     """
     p = np.array([model.position[i] for i in grids])
-    chosen = dependent_freedoms(p, model.position[node])
+    free = np.array([[(i, c) not in model.dependent for c in (1, 2, 3)] for i in grids])
+    chosen = dependent_freedoms(p, model.position[node], free)
     um: dict[int, str] = {}
     for row, component in chosen:
         um[grids[row]] = um.get(grids[row], "") + str(component)
+        model.dependent.add((grids[row], component))
     model.average(part, node, grids, {i: "".join(sorted(c)) for i, c in um.items()})
 
 
-def dependent_freedoms(p: Float64, centre: Float64) -> list[tuple[int, int]]:
+def dependent_freedoms(
+    p: Float64, centre: Float64, free: npt.NDArray[np.bool_]
+) -> list[tuple[int, int]]:
     """Six translations of points that determine a rigid motion best.
 
     Args:
         p: (n, 3) points.
         centre: (3,) where the motion is taken.
+        free: (n, 3) those that may be taken.
 
     Returns:
         Pairs (index of the point, component 1-3), by greedy pivoting.
 
     Raises:
-        ValueError: the points lie on one line.
+        ValueError: the points lie on one line, or too few freedoms are free.
     """
     arm = p - centre
     scale = np.linalg.norm(arm - arm.mean(axis=0), axis=1).mean()
@@ -51,6 +57,7 @@ def dependent_freedoms(p: Float64, centre: Float64) -> list[tuple[int, int]]:
     rows = motion.reshape(-1, 6)
     # Coefficients of the element: mean motion per unit translation of a grid.
     left = np.linalg.lstsq(rows.T @ rows, rows.T, rcond=None)[0].T
+    left = np.where(free.reshape(-1, 1), left, 0.0)
     largest = np.linalg.norm(left, axis=1).max()
     chosen: list[tuple[int, int]] = []
     while len(chosen) < 6:

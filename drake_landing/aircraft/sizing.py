@@ -1,0 +1,69 @@
+"""Sizes of the thin-walled structure along the span, from the facts."""
+
+import numpy as np
+
+from drake_landing.aircraft.facts import facts, table
+from drake_landing.aircraft.geometry import surface
+from drake_landing.aircraft.shell_elements import BoxSizing, Law
+
+
+def box_sizing(name: str) -> BoxSizing:
+    """Of the box of `wing`, `tailplane` or `fin`."""
+    return _wing() if name == "wing" else _tail(name)
+
+
+def movable_sizing(name: str) -> BoxSizing:
+    """Of a movable: uniform sheets, stiffened skins."""
+    data = facts("shells")["movables"]
+    sheets = data[name]
+    return BoxSizing(
+        skin=lambda _: sheets["skin"],
+        web=lambda _: sheets["web"],
+        rib=lambda _: sheets["rib"],
+        bending=data["bending"],
+        web_bending=data["bending"],
+    )
+
+
+def _wing() -> BoxSizing:
+    data, rows = facts("shells")["wing"], table("wing_stiffness")
+    factor = data["thickness_factor"]
+    y, width = rows.y.to_numpy(), rows.box_width.to_numpy()
+    skin = factor * rows.skin_thickness.to_numpy()
+    heavy = data["heavy_ribs"]
+    ribs = list(table("wing_ribs").rib)
+    heavy_numbers = {ribs.index(rib) for rib in heavy["ribs"]}
+    return BoxSizing(
+        skin=_law(y, skin),
+        web=_law(y, factor * rows.spar_thickness.to_numpy()),
+        rib=lambda n: (
+            heavy["thickness"] if n in heavy_numbers else data["rib_thickness"]
+        ),
+        stringer=_law(y, data["stringer_share"] * skin * width),
+        cap=_law(*np.array(data["cap_area"]).T),
+        stringer_height=data["stringer_height"],
+        web_bending=facts("shells")["web_bending"],
+    )
+
+
+def _tail(name: str) -> BoxSizing:
+    data, shape = facts("shells")[name], surface(name)
+    span, skin = np.array(data["skin"]).T
+    front, rear = (shape.spar_fraction(k, span) for k in (0, 1))
+    width = (rear - front) * shape.chord_at(span)
+    heavy = 3 if name == "tailplane" else 2  # centre and pivot ribs, root ribs
+    return BoxSizing(
+        skin=_law(span, skin),
+        web=_law(*np.array(data["web"]).T),
+        rib=lambda n: (
+            data["heavy_rib_thickness"] if n < heavy else data["rib_thickness"]
+        ),
+        stringer=_law(span, data["stringer_share"] * skin * width),
+        cap=_law(*np.array(data["cap_area"]).T),
+        stringer_height=data["stringer_height"],
+        web_bending=facts("shells")["web_bending"],
+    )
+
+
+def _law(span: np.ndarray, values: np.ndarray) -> Law:
+    return lambda s: float(np.interp(s, span, values))
