@@ -24,9 +24,9 @@ COLUMNS = [
     "sprague_geers",
 ]
 
-# Below this share of the largest peak of a run, a component is zero by symmetry and
-# its relative errors would compare rounding errors.
-NEGLIGIBLE = 1e-5
+# Below this share of the largest peak of a run, a component is zero by symmetry or
+# nearly so: relative errors would compare what does not matter.
+NEGLIGIBLE = 1e-3
 
 
 @dataclass(frozen=True, kw_only=True)

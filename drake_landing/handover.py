@@ -62,6 +62,15 @@ class AttachmentLoads:
             raise ValueError("the loads are not on an even time grid")
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
+    def held(self) -> tuple[Float64, Float64]:
+        """Time and load with a last value held for two steps beyond the end.
+
+        The integrator looks one step ahead.
+        """
+        beyond = self.time[-1] + self.step * np.array([1.0, 2.0])
+        last = np.repeat(self.load[-1:], 2, axis=0)
+        return np.append(self.time, beyond), np.concatenate([self.load, last])
+
     def resampled(self, step: float, duration: float) -> "AttachmentLoads":
         """On the grid 0, step, ... up to the duration."""
         grid = time_grid(step, duration)

@@ -1,4 +1,4 @@
-"""The aircraft of a case: a user's deck with gears, or a built-in reference aircraft."""
+"""The aircraft of a case: a user's deck with gears, or a built-in reference."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -30,6 +30,11 @@ class Aircraft:
     monitoring: Mapping[str, int]
     interface: tuple[int, ...] = ()
     notices: tuple[str, ...] = ()
+
+    @property
+    def attachment_nodes(self) -> tuple[int, ...]:
+        """Grid of each gear."""
+        return tuple(gear.attachment_node for gear in self.gears)
 
     @property
     def nodes(self) -> dict[int, str]:

@@ -38,7 +38,6 @@ Float64 = npt.NDArray[np.float64]
 
 _FRAMES_PER_SECOND = 25.0
 _SECONDS = 8.0  # of the replay
-_MOST_LINES = 2000
 _FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _VISIBLE_SHARE = 0.02  # of the aircraft's size: a deformation that one sees
 
@@ -70,7 +69,7 @@ class Motion:
 def write_replay(path: Path, result: "ProcessResult") -> None:
     """Writes the replay of a run."""
     meshcat = _quiet_meshcat()
-    skeleton = result.airframe.skeleton.thinned(_MOST_LINES)
+    skeleton = result.airframe.skeleton
     motion = frames(result)
     factor = deformation_factor(skeleton, motion.amplitudes)
     animation = MeshcatAnimation(_FRAMES_PER_SECOND)
@@ -225,7 +224,9 @@ def _gear(
         bend = factor * (body.translation[row] @ amplitudes)
         turn = exp(factor * (body.rotation[row] @ amplitudes)[None])[0]
         p = motion.p[i] + motion.R[i] @ (body.p_BN[row] - body.p_BG + bend)
-        X = RigidTransform(RotationMatrix.ProjectToRotationMatrix(motion.R[i] @ turn), p)
+        X = RigidTransform(
+            RotationMatrix.ProjectToRotationMatrix(motion.R[i] @ turn), p
+        )
         animation.SetTransform(i, root, X)
         animation.SetTransform(i, f"{root}/piston", RigidTransform(stroke[i] * up))
     for name in gear.wheel_names:
@@ -271,7 +272,7 @@ def _load(
     wheel: str,
     motion: Motion,
 ) -> None:
-    """A bar above the wheel, as long as the vertical load."""
+    """A bar behind the wheel, as long as the vertical load."""
     history = result.history
     largest = max(float(t["vertical"].max()) for t in history.tyre.values())
     table = history.tyre[wheel]
@@ -281,7 +282,9 @@ def _load(
     meshcat.SetObject(path, Box(width, width, length), _LOAD)
     for i, s in enumerate(np.maximum(share, 1e-3)):
         height = gear.tyre.radius + 0.5 * s * length
-        animation.SetTransform(i, path, RigidTransform([0.0, 0.0, height]))
+        animation.SetTransform(
+            i, path, RigidTransform([1.3 * gear.tyre.radius, 0.0, height])
+        )
         animation.SetProperty(i, f"{path}/<object>", "scale", [1.0, 1.0, float(s)])
 
 

@@ -38,13 +38,17 @@ class Skeleton:
     shape: Float64
     edges: Int64
 
-    def thinned(self, count: int) -> "Skeleton":
-        """With at most that many lines, taken evenly, and without unused grids."""
+    def thinned(self, count: int) -> "tuple[Int64, Skeleton]":
+        """At most that many lines, taken evenly, and only the grids they use.
+
+        Returns:
+            Rows of those grids, and the smaller skeleton.
+        """
         edges = self.edges
         if len(edges) > count:
             edges = edges[np.linspace(0, len(edges) - 1, count).astype(int)]
         used, renumbered = np.unique(edges, return_inverse=True)
-        return Skeleton(
+        return used, Skeleton(
             p=self.p[used],
             shape=self.shape[used],
             edges=renumbered.reshape(edges.shape),

@@ -21,6 +21,7 @@ from fem.deck.source import Line, read_source
 from fem.errors import InputError
 
 Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
 
 _FIRST_ID = 900001
 _PER_LINE = 8  # entries of a SET or grid list per line
@@ -51,10 +52,11 @@ def transient_deck(
     """
     sections = split_sections(read_source(source).lines, str(source))
     bulk = _until_enddata(sections.bulk)
+    time, load = loads.held()
     components = np.concatenate(
         [
-            np.einsum("kba,tkb->tka", rotation, loads.load[..., :3]),
-            np.einsum("kba,tkb->tka", rotation, loads.load[..., 3:]),
+            np.einsum("kba,tkb->tka", rotation, load[..., :3]),
+            np.einsum("kba,tkb->tka", rotation, load[..., 3:]),
         ],
         axis=-1,
     )
@@ -69,7 +71,7 @@ def transient_deck(
     yield from ("DISPLACEMENT = 1", "ACCELERATION = 1")
     yield from (f"DLOAD = {first}", f"TSTEP = {first}", "BEGIN BULK")
     yield from _step_cards(first, len(loads.time) - 1, loads.step)
-    yield from _load_cards(first, loads, components)
+    yield from _load_cards(first, loads.node_id, time, components)
     yield "$ The model"
     yield from (line.text for line in bulk)
     yield "ENDDATA"
@@ -127,12 +129,12 @@ def _step_cards(sid: int, count: int, step: float) -> list[str]:
 
 
 def _load_cards(
-    first: int, loads: AttachmentLoads, components: Float64
+    first: int, node_id: Int64, time: Float64, components: Float64
 ) -> Iterable[str]:
     sid = first + 1
     summands: list[float | int] = []
     cards: list[str] = []
-    for k, node in enumerate(loads.node_id.tolist()):
+    for k, node in enumerate(node_id.tolist()):
         for c in range(6):
             history = components[:, k, c]
             if not np.any(history):
@@ -140,7 +142,7 @@ def _load_cards(
             summands += [1.0, sid]
             cards.append(f"TLOAD1  {sid:8d}{sid:8d}{'':16}{sid:8d}")
             cards.append(f"DAREA   {sid:8d}{node:8d}{c + 1:8d}{'1.':>8}")
-            cards += _table(sid, loads.time, history)
+            cards += _table(sid, time, history)
             sid += 1
     if not summands:
         raise InputError(

@@ -70,8 +70,10 @@ def test_every_component_reads_back(tmp_path: Path, loads: AttachmentLoads) -> N
     model = written(tmp_path, TINY, loads)
     for component in range(6):
         x, y = history(model, 52, component + 1)
-        assert x == pytest.approx(loads.time, abs=1e-12)
-        assert y == pytest.approx(loads.load[:, 1, component], rel=1e-9)
+        assert x[:-2] == pytest.approx(loads.time, abs=1e-12)
+        assert y[:-2] == pytest.approx(loads.load[:, 1, component], rel=1e-9)
+        # The integrator looks a step beyond the end.
+        assert y[-2:] == pytest.approx(loads.load[-1, 1, component], rel=1e-9)
 
 
 def test_loads_are_in_the_displacement_frame(
@@ -83,7 +85,7 @@ def test_loads_are_in_the_displacement_frame(
     for part in (0, 3):
         found = np.column_stack([history(model, 51, part + c)[1] for c in (1, 2, 3)])
         expected = loads.load[:, 0, part : part + 3] @ R_B10
-        assert found == pytest.approx(expected, rel=1e-8, abs=1e-3)
+        assert found[:-2] == pytest.approx(expected, rel=1e-8, abs=1e-3)
 
 
 def test_control_sections_are_replaced(tmp_path: Path, loads: AttachmentLoads) -> None:

@@ -1,0 +1,217 @@
+"""Elastic modes of an airframe: of the full model, or of one reduced to an interface.
+
+Reductions keep the interface rows of the free set (f): Guyan condenses everything else
+statically, Craig-Bampton adds fixed-interface modes. The eigenmodes of the reduced
+model come back as shapes of the whole f-set, so that what follows need not know the
+basis.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from drake_landing.case import Airframe, Selection
+from fem.errors import InputError
+from fem.linear_solver import SingularMatrixError
+from fem.modes import Modes, ModesError, normal_modes
+from fem.reduction import Reduction, reduce_craig_bampton
+from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+Rows = npt.NDArray[np.intp]
+Progress = Callable[[int, int], None]
+
+_RIGID = 6
+_LARGEST_FOR_ALL = 6000  # freedoms: "all" modes of more are no basis, they are a model
+_FEW = 6  # rows on which a dependent interface freedom may rest
+
+
+@dataclass(frozen=True, kw_only=True)
+class Basis:
+    """Elastic modes, mass-normalised, ascending.
+
+    Attributes:
+        frequency_hz: (n,).
+        shape: (f, n).
+        rigid: (f, 6) unit rigid motions about the centre of weight: basic axes.
+        freedoms: of the model whose modes these are (f, or of the reduced one).
+        notices: what the user should know.
+    """
+
+    frequency_hz: Float64
+    shape: Float64
+    rigid: Float64
+    freedoms: int
+    notices: tuple[str, ...] = ()
+
+
+def elastic_basis(
+    structure: Structure,
+    airframe: Airframe,
+    interface: Sequence[int],
+    progress: Progress | None = None,
+) -> Basis:
+    """Modes as the case asks for them.
+
+    Args:
+        structure: free-flying.
+        airframe: basis and selection.
+        interface: grids that a reduction keeps.
+        progress: called with (converged, wanted) modes.
+
+    Raises:
+        InputError: the model is supported, has mechanisms, or has no such modes.
+    """
+    if airframe.basis == "full-modes":
+        modes = _solve(structure, airframe.select, progress)
+        shape, freedoms, notices = modes.shape, structure.size, ()
+    else:
+        kept, notices = interface_rows(structure, interface)
+        reduction = _reduce(structure, airframe, kept)
+        modes = normal_modes(
+            sp.csr_matrix(reduction.stiffness),
+            sp.csr_matrix(reduction.mass),
+            **_wanted(airframe.select, reduction.size),
+            rigid_body=np.vstack(
+                [
+                    structure.rigid_body[kept],
+                    np.zeros((reduction.size - len(kept), _RIGID)),
+                ]
+            ),
+        )
+        shape, freedoms = reduction.expand(modes.shape), reduction.size
+    _check_rigid(structure, modes, shape)
+    elastic = slice(_RIGID, None)
+    found = modes.count - _RIGID
+    select = airframe.select
+    if select.kind == "count" and found < select.value:
+        notices = (
+            *notices,
+            f"airframe.select asks for {select.value:g} elastic modes; the "
+            f"{airframe.basis} basis has {found}",
+        )
+    if found == 0 and select.kind == "below" and select.value > 0:
+        notices = (*notices, f"no elastic mode below {select.value:g} Hz: rigid")
+    return Basis(
+        frequency_hz=modes.frequency_hz[elastic],
+        shape=np.ascontiguousarray(shape[:, elastic]),
+        rigid=structure.rigid_body,
+        freedoms=freedoms,
+        notices=notices,
+    )
+
+
+def interface_rows(
+    structure: Structure, grids: Sequence[int]
+) -> tuple[Rows, tuple[str, ...]]:
+    """Rows of the f-set that a reduction keeps, ascending, and what was left out.
+
+    A freedom that depends on few others (a rigid element) is kept through these; one
+    that averages many (RBE3) is not, because all of them would have to be kept.
+    """
+    operator = structure.operator(sorted(set(grids)))
+    count = np.diff(operator.indptr)
+    rows = np.unique(
+        np.concatenate(
+            [operator.indices[a:b] for a, b in _spans(operator.indptr, count <= _FEW)]
+        )
+        if len(count)
+        else np.zeros(0)
+    )
+    asked = structure.analysis_dof
+    rows = np.union1d(rows, structure.free_rows(asked, "ASET") if len(asked) else [])
+    ids = np.repeat(sorted(set(grids)), 6)
+    averaged = sorted(set(ids[count > _FEW].tolist()))
+    notices: tuple[str, ...] = ()
+    if averaged:
+        some = ", ".join(map(str, averaged[:8])) + (" ..." if len(averaged) > 8 else "")
+        notices = (
+            f"{len(averaged)} interface grids are averages of many others (RBE3) and "
+            f"are not kept by the reduction: {some}",
+        )
+    return rows.astype(np.intp), notices
+
+
+def _spans(indptr: npt.NDArray, wanted: npt.NDArray) -> list[tuple[int, int]]:
+    return [(int(indptr[i]), int(indptr[i + 1])) for i in np.flatnonzero(wanted)]
+
+
+def _wanted(select: Selection, size: int) -> dict:
+    """Arguments of `normal_modes`: the rigid-body modes come on top."""
+    if select.kind == "below":
+        return {"band": (0.0, max(select.value, 1e-3))}
+    count = size if select.kind == "all" else int(select.value) + _RIGID
+    return {"count": min(count, size)}
+
+
+def _solve(structure: Structure, select: Selection, progress: Progress | None) -> Modes:
+    if select.kind == "all" and structure.size > _LARGEST_FOR_ALL:
+        raise InputError(
+            f"airframe.select: 'all' modes of {structure.size} freedoms; expected "
+            "'count N' or 'below F Hz', or a reduced basis (guyan, craig-bampton)"
+        )
+
+    def solve() -> Modes:
+        return normal_modes(
+            structure.stiffness,
+            structure.mass,
+            **_wanted(select, structure.size),
+            rigid_body=structure.rigid_body,
+            progress=progress,
+        )
+
+    found = structure.guarded(solve, dynamic=True, error=ModesError)
+    assert isinstance(found, Modes)
+    return found
+
+
+def _reduce(structure: Structure, airframe: Airframe, kept: Rows) -> Reduction:
+    inner = airframe.fixed_interface_modes
+    arguments: dict = {"count": 0}
+    if airframe.basis == "craig-bampton" and inner.kind == "count":
+        arguments = {"count": int(inner.value)}
+    elif airframe.basis == "craig-bampton":
+        arguments = {"highest_hz": inner.value}
+
+    def reduce() -> Reduction:
+        return reduce_craig_bampton(
+            structure.stiffness, structure.mass, structure.damping, kept, **arguments
+        )
+
+    found = structure.guarded(reduce, dynamic=False, error=SingularMatrixError)
+    assert isinstance(found, Reduction)
+    return found
+
+
+def _check_rigid(structure: Structure, modes: Modes, shape: Float64) -> None:
+    """A free-flying airframe has six rigid-body modes.
+
+    Raises:
+        InputError: fewer: what holds it; more: what moves.
+    """
+    if modes.rigid == _RIGID:
+        return
+    if modes.rigid < _RIGID:
+        held = structure.rigid_body
+        energy = np.einsum("fi,fi->i", held, structure.stiffness @ held)
+        axes = ("x", "y", "z", "rotation x", "rotation y", "rotation z")
+        stiff = ", ".join(a for a, e in zip(axes, energy) if e > 1e-6 * energy.max())
+        raise InputError(
+            f"{structure.deck.path}: {modes.rigid} rigid-body modes, expected 6: the "
+            f"airframe must fly freely, but something holds it in {stiff or 'part'}; "
+            "take out SPC, grounded springs, or elements that do not let it turn"
+        )
+    loose = shape[:, : modes.rigid]
+    mass = structure.mass
+    rigid = structure.rigid_body
+    inside = np.linalg.solve(rigid.T @ (mass @ rigid), rigid.T @ (mass @ loose))
+    rest = np.abs(loose - rigid @ inside).max(axis=1)
+    rows = np.argsort(-rest)[:6]
+    raise InputError(
+        f"{structure.deck.path}: {modes.rigid} motions without stiffness, expected the "
+        "6 of a free-flying airframe; besides these, freely move "
+        + ", ".join(structure.label(int(row)) for row in rows if rest[row] > 0)
+    )
