@@ -1,6 +1,6 @@
 """Checks of a whole deck: references, duplicates, selected sets, coordinate systems."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,7 @@ Tables = Mapping[str, pd.DataFrame]
 _MOST = 20  # problems of one kind that are listed
 
 
-def check(deck: Deck, sol: int) -> list[str]:
+def check(deck: Deck) -> list[str]:
     """All problems of a deck whose single cards are well-formed."""
     tables = deck.cards
     problems = _no_points(deck) + _duplicates(tables)
@@ -26,7 +26,6 @@ def check(deck: Deck, sol: int) -> list[str]:
         return problems
     problems += _grids(tables) + _properties(tables) + _materials(tables)
     problems += _frames(tables) + _loaded(tables) + _sets(tables)
-    problems += _selected(deck, sol)
     if not problems:
         try:
             resolve(tables["CORD"], tables["GRID"])
@@ -200,16 +199,18 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
 )
 
 
-def _selected(deck: Deck, sol: int) -> list[str]:
-    """Sets that the case control selects and that the bulk data do not have."""
+def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> list[str]:
+    """Sets that the case control selects and that neither deck nor parts have."""
     problems: list[str] = []
     for attribute, names, solutions in _SELECTED:
         if solutions and sol not in solutions:
             continue
-        known = {0, *ids(deck.cards, names, "sid").tolist()}
+        known = {0}
+        for part in (deck, *parts):
+            known.update(ids(part.cards, names, "sid").tolist())
         for subcase in deck.case_control:
             number = getattr(subcase, attribute)
-            if number not in known and not subcase.superelement:
+            if number not in known:
                 problems.append(
                     f"{deck.path}: subcase {subcase.id}: {attribute.upper()} = "
                     f"{number} is not defined; expected a set of "

@@ -79,6 +79,7 @@ LAYOUTS: dict[str, str] = {
     "SPC": "sid:i (g:i c:c=0 d:f=0.)",
     "SUPORT": "(id:i c:c=0)",
     "ASET": "(id:i c:c=0)",
+    "BSET": "(id:i c:c=0)",
     "QSET": "(id:i c:c=0)",
     # static loads
     "FORCE": _FORCE.format("f"),

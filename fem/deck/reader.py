@@ -19,7 +19,7 @@ from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
 from fem.deck.cards.from_pynastran import EXTRACTORS
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT
-from fem.deck.checks import check
+from fem.deck.checks import check, check_selected
 from fem.deck.cleanup import clean
 from fem.deck.deck import Deck
 from fem.deck.executive import read_executive
@@ -87,12 +87,14 @@ def read_deck(
     notices = [*source.notices, *executive.notices, *case.notices]
     problems = [*sections.problems, *executive.problems, *case.problems]
     bulk = read_cards(sections.bulk)
-    deck = _deck(path, bulk, case, executive.sol, ignore, problems, notices)
+    deck = _deck(path, bulk, case, ignore, problems, notices)
     if sections.superelements and not superelements:
         numbers = ", ".join(map(str, sections.superelements))
         problems.append(f"{path}: superelements (BEGIN SUPER = {numbers})")
         problems[-1] += " are not supported here; expected one bulk data section"
-    parts = _superelements(path, sections, executive.sol, ignore, problems)
+    parts = _superelements(path, sections, ignore, problems)
+    if not problems:
+        problems += check_selected(deck, executive.sol, parts.values())
     if problems:
         raise InputError(problems)
     if sections.has_control and not bulk.has_enddata and not parts:
@@ -113,7 +115,6 @@ def _deck(
     path: Path,
     bulk: Bulk,
     case: CaseControl,
-    sol: int,
     ignore: Collection[str],
     problems: list[str],
     notices: list[str],
@@ -130,7 +131,7 @@ def _deck(
     deck = Deck(path=path, cards=tables, params=params, case_control=case.subcases)
     if not problems:
         clean(tables, ignored, notices)
-        problems += check(deck, sol)
+        problems += check(deck)
     return deck
 
 
@@ -179,7 +180,6 @@ def _lines(name: str, cards: Sequence[RawCard]) -> str:
 def _superelements(
     path: Path,
     sections: Sections,
-    sol: int,
     ignore: Collection[str],
     problems: list[str],
 ) -> Mapping[int, Deck]:
@@ -187,9 +187,7 @@ def _superelements(
     decks = {}
     for number, lines in sections.superelements.items():
         bulk, notices = read_cards(lines), []
-        deck = _deck(
-            path, bulk, CaseControl(subcases=()), sol, ignore, problems, notices
-        )
+        deck = _deck(path, bulk, CaseControl(subcases=()), ignore, problems, notices)
         decks[number] = Deck(
             path=path, cards=deck.cards, params=deck.params, notices=tuple(notices)
         )

@@ -19,6 +19,8 @@ ALIASES: dict[str, str] = {
     "CONROD": "CROD",  # area, J, ... in the row itself, pid 0
     "QSET1": "QSET",
     "ASET1": "ASET",
+    "BSET": "ASET",  # a-set with fixed boundary, as reductions here take all of it
+    "BSET1": "ASET",
     "PBARL": "PBAR",  # section properties are computed while reading
     "PBEAML": "PBEAM",
     "PCOMPG": "PCOMP",

@@ -157,7 +157,8 @@ def _intensities(rows: pd.DataFrame, lines: _Lines, direction: Float64) -> Float
     p2 = rows["p2"].fillna(rows["p1"]).to_numpy(np.float64)
     projected = rows["scale"].str.endswith("PR").to_numpy()
     across = np.sqrt(np.maximum(0.0, 1.0 - direction[:, 0] ** 2))
-    return np.stack([p1, p2], axis=1) * np.where(projected, across, 1.0)[:, None]
+    scale = np.where(projected, across, 1.0)
+    return np.stack([p1 * scale, p2 * scale], axis=1)
 
 
 def _at_ends(

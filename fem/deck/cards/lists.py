@@ -30,7 +30,7 @@ def _spc1(f: Fields) -> Rows:
 
 
 def _set1(f: Fields) -> Rows:
-    """ASET1 and QSET1."""
+    """ASET1, BSET1 and QSET1."""
     c = f.components(1, "C", "0")
     written, between = f.ids(2, "ID")
     rows = [{"id": i, "c": c, "thru": False} for i in written]
@@ -178,6 +178,7 @@ READERS: dict[str, Callable[[Fields], Rows]] = {
     "SPOINT": _spoint,
     "SPC1": _spc1,
     "ASET1": _set1,
+    "BSET1": _set1,
     "QSET1": _set1,
     "SPCADD": _add,
     "MPCADD": _add,
