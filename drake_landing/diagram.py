@@ -11,7 +11,7 @@ Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_f
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 from pydrake.multibody.plant import (
     ExternallyAppliedSpatialForceMultiplexer,
@@ -22,7 +22,7 @@ from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
 
 from drake_landing.gear import LandingGear
 from drake_landing.gear_bodies import AddLandingGear, GearBodies
-from drake_landing.gear_parameters import shock_absorber_parameters, tire_parameters
+from drake_landing.gear_systems import AddGearSystems
 from systems.attachment import Attachment, RigidAttachment
 from systems.bushing_attachment import BushingAttachment
 from systems.energy_budget import AddEnergyBudget, EnergyBudget
@@ -30,9 +30,6 @@ from systems.flexible_airframe import FlexibleAirframe
 from systems.gear_forces import GearForces
 from systems.modal_body import ModalBody
 from systems.runway import Runway
-from systems.shock_absorber import ShockAbsorber
-from systems.side_load import SideLoad
-from systems.tire import Tire
 from systems.wheel_kinematics import WheelKinematics
 
 _LOGGED = {
@@ -133,32 +130,14 @@ def MakeLandingDiagram(
     fittings = [parts.fitting for parts in bodies.values()]
     kind = {"rigid": RigidAttachment, "bushing": BushingAttachment}[attachment]
     held = builder.AddNamedSystem("attachment", kind(plant, fittings))
-    wheels = {n: b for parts in bodies.values() for n, b in parts.wheels.items()}
-    struts = {name: parts.strut for name, parts in bodies.items()}
-    kinematics = builder.AddNamedSystem(
-        "wheel_kinematics", WheelKinematics(plant, wheels, struts)
-    )
-    forces = builder.AddNamedSystem("gear_forces", GearForces(plant, wheels, struts))
-    tires, absorbers = {}, {}
-    tire, absorber = cast(Any, Tire), cast(Any, ShockAbsorber)
-    for gear in gears:
-        law = tire_parameters(gear.tyre)
-        for wheel in gear.wheel_names:
-            tires[wheel] = builder.AddNamedSystem(f"tire_{wheel}", tire(law, runway))
-        absorbers[gear.name] = builder.AddNamedSystem(
-            f"shock_absorber_{gear.name}",
-            absorber(shock_absorber_parameters(gear.shock_absorber)),
-        )
-
-    _connect_gears(builder, kinematics, forces, tires, absorbers)
-    for gear in gears:
-        if gear.shock_absorber.bearing_friction > 0:
-            _add_side_load(builder, gear, kinematics, tires, absorbers[gear.name])
-    _connect_attachment(builder, plant, airframe, held, kinematics, forces)
+    parts = AddGearSystems(builder, plant, gears, bodies, runway)
+    _connect_attachment(builder, plant, airframe, held, parts.gear_forces)
     builder.ExportInput(airframe.GetInputPort("external_load"), "external_load")
     systems = {"plant": plant, "airframe": airframe, "attachment": held}
-    systems |= {f"tire_{name}": tire for name, tire in tires.items()}
-    systems |= {f"shock_absorber_{name}": a for name, a in absorbers.items()}
+    systems |= {f"tire_{name}": tire for name, tire in parts.tires.items()}
+    systems |= {
+        f"shock_absorber_{name}": a for name, a in parts.shock_absorbers.items()
+    }
     budget = None
     if energy_budget:
         others = [system for name, system in systems.items() if name != "plant"]
@@ -172,10 +151,10 @@ def MakeLandingDiagram(
         plant=plant,
         airframe=airframe,
         attachment=held,
-        wheel_kinematics=kinematics,
-        gear_forces=forces,
-        tires=tires,
-        shock_absorbers=absorbers,
+        wheel_kinematics=parts.wheel_kinematics,
+        gear_forces=parts.gear_forces,
+        tires=parts.tires,
+        shock_absorbers=parts.shock_absorbers,
         bodies=bodies,
         energy_budget=budget,
         loggers=loggers,
@@ -185,53 +164,20 @@ def MakeLandingDiagram(
     )
 
 
-def _connect_gears(
-    builder: DiagramBuilder,
-    kinematics: WheelKinematics,
-    forces: GearForces,
-    tires: dict[str, Any],
-    absorbers: dict[str, Any],
-) -> None:
-    for name, tire in tires.items():
-        _connect(builder, kinematics, f"wheel_{name}", tire, "wheel")
-        _connect(builder, tire, "wrench", forces, f"tire_{name}")
-    for name, absorber in absorbers.items():
-        _connect(builder, kinematics, f"strut_{name}", absorber, "strut_state")
-        _connect(builder, absorber, "force", forces, f"strut_{name}")
-
-
-def _add_side_load(
-    builder: DiagramBuilder,
-    gear: LandingGear,
-    kinematics: WheelKinematics,
-    tires: dict[str, Any],
-    absorber: Any,
-) -> None:
-    side_load = SideLoad(gear.wheel_names)
-    builder.AddNamedSystem(f"side_load_{gear.name}", side_load)
-    _connect(builder, kinematics, f"strut_axis_{gear.name}", side_load, "strut_axis")
-    for wheel in gear.wheel_names:
-        _connect(builder, tires[wheel], "wrench", side_load, f"tire_{wheel}")
-    _connect(builder, side_load, "side_load", absorber, "side_load")
-
-
 def _connect_attachment(
     builder: DiagramBuilder,
     plant: MultibodyPlant,
     airframe: FlexibleAirframe,
     held: Attachment,
-    kinematics: WheelKinematics,
     forces: GearForces,
 ) -> None:
-    for system in (kinematics, held):
-        _connect(builder, plant, "state", system, "plant_state")
+    _connect(builder, plant, "state", held, "plant_state")
     for port in ("pose", "velocity", "free_acceleration", "compliance"):
         _connect(builder, airframe, f"node_{port}", held, f"node_{port}")
     _connect(builder, airframe, "pose", held, "airframe_pose")
     _connect(builder, held, "wrench_on_airframe", airframe, "attachment_wrench")
     for port in ("spatial_forces", "generalized_force"):
         _connect(builder, forces, port, held, port)
-    _connect(builder, forces, "generalized_force", plant, "applied_generalized_force")
     both = builder.AddNamedSystem(
         "spatial_forces", ExternallyAppliedSpatialForceMultiplexer(2)
     )
