@@ -72,14 +72,15 @@ class InertiaRelief:
 
     Attributes:
         displacement: (f, c) relative to the support, or in mean axes.
-        acceleration: (r, c) accelerations of the support freedoms, or the coordinates
-            of the rigid-body motions given.
+        acceleration: (r, c) accelerations of the support freedoms.
         balanced: (f, c) loads plus inertia forces.
+        motions: (f, r) rigid-body motions that belong to `acceleration`.
     """
 
     displacement: Float64
     acceleration: Float64
     balanced: Float64
+    motions: Float64
 
 
 def inertia_relief(
@@ -138,7 +139,9 @@ def inertia_relief(
         u[keep] = factor.solve(balanced[keep])
     if not given:
         u -= motions @ np.linalg.solve(motions.T @ heavy, heavy.T @ u)
-    return InertiaRelief(displacement=u, acceleration=acceleration, balanced=balanced)
+    return InertiaRelief(
+        displacement=u, acceleration=acceleration, balanced=balanced, motions=motions
+    )
 
 
 def free_motions(stiffness: sp.csr_matrix, rigid_body: Float64) -> Float64:

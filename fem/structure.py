@@ -8,8 +8,9 @@ matrices works on a structure, on parts of it, or on somebody else's matrices.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
+Answer = TypeVar("Answer")
 
 
 class Structure:
@@ -209,21 +211,16 @@ class Structure:
         return self.elimination.reduce(self.matrices.mass)
 
     @cached_property
-    def damping(self) -> Damping:
-        """B = B1 + (G/W3 + ALPHA2) K + ALPHA1 M + K4/W4, for transients."""
+    def damping_g(self) -> Damping:
+        """B = B1 + (G/W3 + ALPHA2) K + ALPHA1 M + K4/W4 of the g-set, in transients."""
         param = {name: _number(self.deck, name) for name in _DAMPING_PARAMETERS}
         stiff = param["ALPHA2"]
         if param["W3"] > 0.0:
             stiff += param["G"] / param["W3"]
-        other = self.elimination.reduce(self.matrices.damping)
-        if param["W4"] > 0.0:
-            elements = Damping.of(
-                sp.csr_matrix(
-                    self.elimination.reduce(self.matrices.structural_damping)
-                    / param["W4"]
-                ),
-                self.stiffness,
-            )
+        other = self.matrices.damping
+        if param["W4"] > 0.0 and self.matrices.structural_damping.nnz:
+            k4 = sp.csr_matrix(self.matrices.structural_damping / param["W4"])
+            elements = Damping.of(k4, self.matrices.stiffness)
             stiff += elements.stiffness_factor
             if elements.other is not None:
                 other = sp.csr_matrix(other + elements.other)
@@ -232,6 +229,14 @@ class Structure:
             mass_factor=param["ALPHA1"],
             other=other if other.nnz else None,
         )
+
+    @cached_property
+    def damping(self) -> Damping:
+        """(f, f) B with its proportional part apart, see `damping_g`."""
+        whole = self.damping_g
+        if whole.other is None:
+            return whole
+        return replace(whole, other=self.elimination.reduce(whole.other))
 
     @cached_property
     def rigid_body(self) -> Float64:
@@ -341,8 +346,12 @@ class Structure:
         return describe(mechanisms, self.label)
 
     def guarded(
-        self, function: Callable[[], object], *, dynamic: bool, error: type[Exception]
-    ) -> object:
+        self,
+        function: Callable[[], Answer],
+        *,
+        dynamic: bool,
+        error: type[Exception] | tuple[type[Exception], ...],
+    ) -> Answer:
         """Call a solution; its numerical failure becomes an error that names grids.
 
         Raises:
@@ -362,7 +371,15 @@ class Structure:
 
 
 _OF_MODEL = frozenset(
-    {"blocks", "matrices", "weight", "generalised_dof", "analysis_dof", "support_dof"}
+    {
+        "analysis_dof",
+        "blocks",
+        "damping_g",
+        "generalised_dof",
+        "matrices",
+        "support_dof",
+        "weight",
+    }
 )
 _OF_SUPPORT = frozenset(
     {"_support", "mass", "damping", "rigid_body", "notices", "damping_notices"}

@@ -1,0 +1,119 @@
+"""Command line of the finite-element module.
+
+Exit status 0 on success, 2 on bad input (one message, no traceback), 1 on an internal
+failure.
+"""
+
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console as Terminal
+from rich.progress import Progress, TextColumn
+
+app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+
+
+class RichConsole:
+    """Lines, and a progress bar on a terminal."""
+
+    def __init__(self) -> None:
+        self._terminal = Terminal(highlight=False)
+        self._progress: Progress | None = None
+
+    def say(self, text: str) -> None:
+        """Print lines as they are."""
+        self.close()
+        self._terminal.print(text, markup=False, soft_wrap=True)
+
+    def progress(self, task: str) -> Callable[[int, int], None]:
+        """A bar with the remaining time; plain output shows the start only."""
+        self.close()
+        if not self._terminal.is_terminal:
+            self._terminal.print(f"{task} ...", markup=False)
+            return lambda done, total: None
+        columns = (*Progress.get_default_columns(), TextColumn("{task.completed:.0f}"))
+        bar = Progress(*columns, console=self._terminal, transient=True)
+        self._progress = bar
+        number = bar.add_task(task, total=None)
+        bar.start()
+
+        def update(done: int, total: int) -> None:
+            bar.update(number, completed=done, total=total)
+            if done >= total:
+                bar.stop()
+
+        return update
+
+    def close(self) -> None:
+        """Take a bar away."""
+        if self._progress is not None:
+            self._progress.stop()
+            self._progress = None
+
+
+@app.command()
+def run(
+    deck: Annotated[
+        Path, typer.Argument(help="Nastran deck (SOL 101, 103, 109, 112).")
+    ],
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for results; default out/<deck>.")
+    ] = None,
+    ignore: Annotated[
+        str, typer.Option(help="Unsupported cards to go on without: CARD,CARD,...")
+    ] = "",
+    envelope: Annotated[
+        bool, typer.Option(help="Extremes over time of all element results.")
+    ] = False,
+    threads: Annotated[
+        int | None, typer.Option(min=1, help="Threads of the sparse solver.")
+    ] = None,
+) -> None:
+    """Solve a Nastran deck's own case control and write DIR/<deck>.h5."""
+    from fem.deck.reader import read_deck
+    from fem.solution import Options, run_deck
+
+    console = RichConsole()
+    try:
+        names = [name for name in ignore.replace(" ", "").split(",") if name]
+        model = read_deck(deck, ignore=names)
+        folder = out if out is not None else Path("out") / deck.stem
+        options = Options(threads=threads, envelope=envelope, console=console)
+        run_deck(model, folder / f"{deck.stem}.h5", options)
+    finally:
+        console.close()
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run the command line and exit with its status."""
+    sys.exit(_status(arguments))
+
+
+def _status(arguments: list[str] | None) -> int:
+    from fem.errors import InputError
+
+    try:
+        app(args=arguments, prog_name="python -m fem", standalone_mode=False)
+    except InputError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    except typer.Abort:
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted", file=sys.stderr)
+        return 1
+    except Exception as error:
+        if hasattr(error, "exit_code") and hasattr(error, "show"):
+            error.show()
+            return int(error.exit_code)
+        if isinstance(error, OSError | MemoryError):
+            print(f"error: {error or type(error).__name__}", file=sys.stderr)
+            return 2 if isinstance(error, OSError) else 1
+        traceback.print_exc()
+        print("error: internal failure (please report it)", file=sys.stderr)
+        return 1
+    return 0

@@ -1,0 +1,74 @@
+"""Extremes over time of all element results, in one pass and without histories.
+
+For every element and every column of a table (von Mises among them) the smallest and
+the largest value and their times. Works on chunks of the response while a transient
+runs; memory is four numbers per element and column.
+"""
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from fem.observation import Chunk
+from fem.recovery import ElementTable
+
+Float64 = npt.NDArray[np.float64]
+
+
+class Envelope:
+    """Observer that keeps the extremes of one table.
+
+    Args:
+        table: which elements and results.
+        expand: (g, n) g-set from the freedoms of the transient.
+        name: group of the result file.
+        case: load case.
+
+    Attributes:
+        smallest, largest: (e, c) extremes in the columns of the table.
+        time_of_smallest, time_of_largest: (e, c) when they occur first, s.
+    """
+
+    def __init__(
+        self,
+        table: ElementTable,
+        expand: sp.csr_matrix,
+        name: str = "envelope",
+        case: int = 0,
+    ) -> None:
+        self.table, self._name, self._case = table, name, case
+        self._operator = sp.csr_matrix(table.operator @ expand)
+        shape = (len(table.id), len(table.columns))
+        self.smallest, self.largest = np.full(shape, np.inf), np.full(shape, -np.inf)
+        self.time_of_smallest, self.time_of_largest = np.zeros(shape), np.zeros(shape)
+
+    def begin(self, time: Float64, cases: int, size: int) -> None:
+        """Start afresh; see `Observer`."""
+        self.smallest[:], self.largest[:] = np.inf, -np.inf
+
+    def observe(self, chunk: Chunk) -> None:
+        """Take the extremes of a chunk; see `Observer`."""
+        linear = chunk.get("displacement", self._operator)[:, self._case]
+        values = self.table.evaluate(linear)
+        for extreme, time, at in (
+            (self.smallest, self.time_of_smallest, values.argmin(axis=0)),
+            (self.largest, self.time_of_largest, values.argmax(axis=0)),
+        ):
+            found = np.take_along_axis(values, at[None], axis=0)[0]
+            better = found < extreme if extreme is self.smallest else found > extreme
+            extreme[better] = found[better]
+            time[better] = chunk.time[at][better]
+
+    def memory_bytes(self, times: int, cases: int, size: int) -> int:
+        """Bytes of the extremes."""
+        return 4 * self.largest.nbytes
+
+    def write(self, file: h5py.File) -> None:
+        """Datasets `min`, `max`, `time_of_min`, `time_of_max`, `id`."""
+        group = file.create_group(f"{self._name}/{self.table.table}")
+        group["id"] = self.table.id
+        group["min"], group["max"] = self.smallest, self.largest
+        group["time_of_min"] = self.time_of_smallest
+        group["time_of_max"] = self.time_of_largest
+        group.attrs["columns"] = list(self.table.columns)

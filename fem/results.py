@@ -1,0 +1,230 @@
+"""The HDF5 result file of a deck; its layout is section 6 of docs/design.md.
+
+The file is written under a temporary name and takes its own when it is complete.
+Histories of transients are written while they are computed.
+"""
+
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import h5py
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from fem.deck.case_control import Selection
+from fem.observation import Chunk, Quantity
+from fem.points import Points
+from fem.recovery import ElementTable
+from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+
+class ResultFile:
+    """A result file that is being written; a context manager.
+
+    Args:
+        path: final name; it appears only when the context ends without an error.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self._part = path.with_name(f".{path.name}.part")
+
+    def __enter__(self) -> Self:
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        self.file = h5py.File(self._part, "w")
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.file.close()
+        if kind is None:
+            self._part.replace(self.path)
+        else:
+            self._part.unlink(missing_ok=True)
+
+    def write_model(self, structure: Structure) -> None:
+        """Grids, mass properties and what the deck had to say."""
+        points, weight = structure.points, structure.weight
+        self.file["grid_id"] = points.grid_id
+        self.file["position"] = points.xyz
+        if len(points.spoint_id):
+            self.file["scalar_point_id"] = points.spoint_id
+        self.file["mass/total"] = weight.total
+        self.file["mass/cg"] = weight.center
+        self.file["mass/inertia"] = weight.inertia
+        self.file.attrs["deck"] = str(structure.deck.path.name)
+        self.file.attrs["notices"] = list(structure.notices)
+
+    def write(self, name: str, values: npt.ArrayLike) -> None:
+        """A dataset; groups on the way are made."""
+        self.file[name] = np.asarray(values)
+
+    def write_points(
+        self, name: str, points: Points, values: Float64, selection: Selection
+    ) -> None:
+        """A quantity (g,) or (k, g) of the g-set as (k', 6) or (k, k', 6)."""
+        layout = PointLayout(points, selection)
+        layout.describe(self.file, name)
+        self.file[name] = layout.grids(values[..., layout.grid_dof])
+        if len(layout.scalar_dof):
+            self.file[f"{name}_scalar_point"] = values[..., layout.scalar_dof]
+
+    def write_table(self, name: str, table: ElementTable, values: Float64) -> None:
+        """Element results ([k,] e, c)."""
+        group = self._table_group(name, table)
+        group["value"] = values
+
+    def _table_group(self, name: str, table: ElementTable) -> h5py.Group:
+        group = self.file.create_group(f"{name}/{table.table}")
+        group["id"] = table.id
+        group.attrs["columns"] = list(table.columns)
+        return group
+
+    def point_history(
+        self,
+        name: str,
+        points: Points,
+        selection: Selection,
+        quantity: Quantity,
+        expand: sp.csr_matrix,
+        case: int,
+    ) -> "PointHistory":
+        """Observer that writes a quantity of points while a transient runs."""
+        layout = PointLayout(points, selection)
+        layout.describe(self.file, name)
+        return PointHistory(self.file, name, layout, quantity, expand, case)
+
+    def table_history(
+        self, name: str, table: ElementTable, expand: sp.csr_matrix, case: int
+    ) -> "TableHistory":
+        """Observer that writes element results while a transient runs."""
+        return TableHistory(self._table_group(name, table), table, expand, case)
+
+
+class PointLayout:
+    """Which rows of the g-set a dataset of points holds.
+
+    Attributes:
+        grid_dof: (6 k,) rows of the chosen grids.
+        scalar_dof: (s,) rows of the chosen scalar points.
+    """
+
+    def __init__(self, points: Points, selection: Selection) -> None:
+        self.all = selection == "ALL"
+        wanted = np.fromiter(selection, np.int64) if _is_set(selection) else None
+        grid = _chosen(points.grid_id, wanted)
+        scalar = _chosen(points.spoint_id, wanted)
+        self.grid_id = points.grid_id[grid]
+        self.scalar_id = points.spoint_id[scalar]
+        self.grid_dof = (6 * grid[:, None] + np.arange(6)).reshape(-1)
+        self.scalar_dof = 6 * len(points.grid_id) + scalar
+
+    def grids(self, values: Float64) -> Float64:
+        """(..., 6 k) as (..., k, 6)."""
+        return values.reshape(*values.shape[:-1], len(self.grid_id), 6)
+
+    def describe(self, file: h5py.File, name: str) -> None:
+        """Say which points a dataset holds, where these are not all."""
+        if not self.all:
+            file[f"{name}_grid_id"] = self.grid_id
+        if len(self.scalar_dof) and not self.all:
+            file[f"{name}_scalar_point_id"] = self.scalar_id
+
+
+def _is_set(selection: Selection) -> bool:
+    return not isinstance(selection, str)
+
+
+def _chosen(ids: Int64, wanted: Int64 | None) -> npt.NDArray[np.intp]:
+    if wanted is None:
+        return np.arange(len(ids))
+    return np.flatnonzero(np.isin(ids, wanted))
+
+
+class PointHistory:
+    """Writes one quantity of points at every output time; see `Observer`."""
+
+    def __init__(
+        self,
+        file: h5py.File,
+        name: str,
+        layout: PointLayout,
+        quantity: Quantity,
+        expand: sp.csr_matrix,
+        case: int,
+    ) -> None:
+        self._file, self._name, self._layout = file, name, layout
+        self._quantity: Quantity = quantity
+        dof = np.concatenate([layout.grid_dof, layout.scalar_dof])
+        self._operator = sp.csr_matrix(expand[dof])
+        self._case = case
+        self._datasets: list[h5py.Dataset] = []
+
+    def begin(self, time: Float64, cases: int, size: int) -> None:
+        """Make the datasets."""
+        layout, t = self._layout, len(time)
+        shape = (t, len(layout.grid_id), 6)
+        self._datasets = [self._file.create_dataset(self._name, shape, dtype="f8")]
+        if len(layout.scalar_dof):
+            self._datasets.append(
+                self._file.create_dataset(
+                    f"{self._name}_scalar_point",
+                    (t, len(layout.scalar_dof)),
+                    dtype="f8",
+                )
+            )
+
+    def observe(self, chunk: Chunk) -> None:
+        """Write a chunk."""
+        values = chunk.get(self._quantity, self._operator)[:, self._case]
+        at = slice(chunk.first, chunk.first + len(chunk.time))
+        grids = 6 * len(self._layout.grid_id)
+        self._datasets[0][at] = self._layout.grids(values[:, :grids])
+        for dataset in self._datasets[1:]:
+            dataset[at] = values[:, grids:]
+
+    def memory_bytes(self, times: int, cases: int, size: int) -> int:
+        """Nothing stays in memory."""
+        return 0
+
+
+class TableHistory:
+    """Writes element results at every output time; see `Observer`."""
+
+    def __init__(
+        self, group: h5py.Group, table: ElementTable, expand: sp.csr_matrix, case: int
+    ) -> None:
+        self._group, self._table, self._case = group, table, case
+        self._operator = sp.csr_matrix(table.operator @ expand)
+        self._value: h5py.Dataset | None = None
+
+    def begin(self, time: Float64, cases: int, size: int) -> None:
+        """Make the dataset."""
+        shape = (len(time), len(self._table.id), len(self._table.columns))
+        self._value = self._group.create_dataset("value", shape, dtype="f8")
+
+    def observe(self, chunk: Chunk) -> None:
+        """Write a chunk."""
+        linear = chunk.get("displacement", self._operator)[:, self._case]
+        at = slice(chunk.first, chunk.first + len(chunk.time))
+        if self._value is not None:
+            self._value[at] = self._table.evaluate(linear)
+
+    def memory_bytes(self, times: int, cases: int, size: int) -> int:
+        """Nothing stays in memory."""
+        return 0
+
+
+def table_names(tables: Sequence[ElementTable]) -> list[str]:
+    """Names of tables, for messages."""
+    return [table.table for table in tables]

@@ -1,0 +1,151 @@
+"""SOL 103: normal modes as EIGRL asks for them."""
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from fem.analysis_model import AnalysisModel, analysis_model
+from fem.deck.case_control import Subcase
+from fem.deck.deck import Deck
+from fem.errors import InputError
+from fem.linear_solver import SingularMatrixError
+from fem.modes import Modes, ModesError, normal_modes
+from fem.results import ResultFile
+from fem.solution.options import Options
+from fem.solution.static import write_element_results
+from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+
+_PRINTED = 60
+
+
+def solve_modes(
+    structure: Structure,
+    subcases: list[Subcase],
+    results: ResultFile,
+    options: Options,
+) -> None:
+    """Frequencies and shapes; the first subcase's as `/modes`, others `/modes_<id>`.
+
+    Raises:
+        InputError: no METHOD, or a massless mechanism; its grids are named.
+    """
+    for i, subcase in enumerate(subcases):
+        model = structure.with_subcase(subcase)
+        reduced, modes = modes_of(model, options)
+        name = "modes" if i == 0 else f"modes_{subcase.id}"
+        _write(model, reduced, modes, results, name)
+        options.console.say(mode_table(modes))
+
+
+def modes_of(model: Structure, options: Options) -> tuple[AnalysisModel, Modes]:
+    """Modes that the METHOD of a structure's subcase asks for."""
+    card = eigrl(model.deck, model.subcase)
+    count, band = request(card)
+    report = options.console.progress("modes")
+
+    def solve() -> tuple[AnalysisModel, Modes]:
+        reduced = analysis_model(model, solver=options.solver)
+        return reduced, normal_modes(
+            reduced.stiffness,
+            reduced.mass,
+            count=count,
+            band=band,
+            rigid_body=reduced.rigid_body,
+            solver=options.solver,
+            progress=report,
+        )
+
+    try:
+        return model.guarded(
+            solve, dynamic=True, error=(ModesError, SingularMatrixError)
+        )
+    except ModesError as error:
+        raise InputError(f"{model.deck.path}: {error}") from None
+
+
+def eigrl(deck: Deck, subcase: Subcase) -> pd.Series:
+    """The EIGRL card that a subcase selects.
+
+    Raises:
+        InputError: it selects none, or one that is not there.
+    """
+    table = deck.cards["EIGRL"]
+    found = table[table["sid"] == subcase.method]
+    if found.empty:
+        known = sorted(table["sid"].tolist()) or "none in the deck"
+        raise InputError(
+            f"{deck.path}: subcase {subcase.id}: METHOD = "
+            f"{subcase.method or 'nothing'}, expected an EIGRL card: {known}"
+        )
+    return found.iloc[0]
+
+
+def request(card: pd.Series) -> tuple[int | None, tuple[float | None, float | None]]:
+    """Count and band of an EIGRL card.
+
+    Raises:
+        InputError: neither ND nor V2, or limits that do not ascend.
+    """
+    low = None if np.isnan(card["v1"]) else float(card["v1"])
+    high = None if np.isnan(card["v2"]) else float(card["v2"])
+    count = int(card["nd"]) or None
+    where = f"{card['file']}:{card['line']}: EIGRL {card['sid']}"
+    if low is not None and high is not None and not low < high:
+        raise InputError(f"{where}: V1 {low:g} and V2 {high:g} must ascend")
+    if high is not None and high <= 0.0:
+        raise InputError(f"{where}: V2 is {high:g} Hz, expected a positive frequency")
+    if count is None and high is None:
+        # As Nastran: without a limit and a count, the lowest mode is meant.
+        count = 1
+    return count, (low, high)
+
+
+def scaled_shapes(modes: Modes, shapes: Float64, norm: str) -> Float64:
+    """Shapes (g, m) normalised as EIGRL's NORM says."""
+    if not norm.upper().startswith("MAX") or shapes.size == 0:
+        return shapes
+    largest = np.abs(shapes).max(axis=0)
+    return shapes / np.where(largest > 0.0, largest, 1.0)
+
+
+def _write(
+    model: Structure,
+    reduced: AnalysisModel,
+    modes: Modes,
+    results: ResultFile,
+    name: str,
+) -> None:
+    subcase, points = model.subcase, model.points
+    norm = str(eigrl(model.deck, subcase)["norm"] or "MASS")
+    shapes = scaled_shapes(modes, reduced.expand @ modes.shape, norm)
+    results.write(f"{name}/frequency_hz", modes.frequency_hz)
+    mass = np.einsum("gm,gm->m", shapes, model.matrices.mass @ shapes)
+    results.write(f"{name}/modal_mass", mass)
+    results.write(
+        f"{name}/sturm",
+        np.array([[c.frequency_hz, c.counted, c.found] for c in modes.sturm]),
+    )
+    wanted = subcase.outputs
+    results.write_points(
+        f"{name}/shape", points, shapes.T, wanted.get("DISPLACEMENT", "ALL")
+    )
+    if "SPCFORCES" in wanted:
+        matrices = model.matrices
+        residual = matrices.stiffness @ shapes
+        residual -= (matrices.mass @ shapes) * modes.eigenvalue
+        force = model.elimination.spc_force(residual)
+        results.write_points(f"{name}/spc_force", points, force.T, wanted["SPCFORCES"])
+    write_element_results(model, subcase, shapes, results, name)
+
+
+def mode_table(modes: Modes) -> str:
+    """Frequencies in lines of text, with the counts that were made."""
+    lines = [f"{modes.count} modes, {modes.rigid} of them rigid-body modes"]
+    for i, hz in enumerate(modes.frequency_hz[:_PRINTED], start=1):
+        lines.append(f"  mode {i:4d}  {hz:14.7g} Hz")
+    if modes.count > _PRINTED:
+        lines.append(f"  ... up to {modes.frequency_hz[-1]:.7g} Hz")
+    lines += [f"Sturm sequence: {count}" for count in modes.sturm]
+    return "\n".join(lines)

@@ -1,0 +1,47 @@
+"""How a deck is run, and who is told about it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from fem.linear_solver import SolverName
+
+
+class Console(Protocol):
+    """Receives what a run has to say."""
+
+    def say(self, text: str) -> None:
+        """A line, or several."""
+        ...
+
+    def progress(self, task: str) -> Callable[[int, int], None]:
+        """A progress display for a task; called with (done, all)."""
+        ...
+
+
+class Quiet:
+    """Says nothing."""
+
+    def say(self, text: str) -> None:
+        """Drop the text."""
+
+    def progress(self, task: str) -> Callable[[int, int], None]:
+        """A display that shows nothing."""
+        return lambda done, total: None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Options:
+    """Options of a run.
+
+    Attributes:
+        solver: sparse solver; None: PARDISO where it is installed.
+        threads: its threads; None: the environment's number, else all cores.
+        envelope: in transients, extremes of all element results over time.
+        console: who is told.
+    """
+
+    solver: SolverName | None = None
+    threads: int | None = None
+    envelope: bool = False
+    console: Console = field(default_factory=Quiet)

@@ -1,0 +1,99 @@
+"""The story of a run: model, solutions of the subcases, result file."""
+
+from collections.abc import Callable
+from pathlib import Path
+from time import perf_counter
+
+from fem.deck.case_control import Subcase
+from fem.deck.deck import Deck
+from fem.errors import InputError
+from fem.results import ResultFile
+from fem.solution.modes import solve_modes
+from fem.solution.options import Options
+from fem.solution.static import solve_statics
+from fem.solution.transient import solve_transients
+from fem.structure import Structure
+
+_Solver = Callable[[Structure, list[Subcase], ResultFile, Options], None]
+
+_SOLVERS: dict[int, _Solver] = {
+    101: solve_statics,
+    103: solve_modes,
+    109: solve_transients,
+    112: solve_transients,
+}
+_ANALYSES = {"STATICS": 101, "STATIC": 101, "MODES": 103, "DTRAN": 109, "MTRAN": 112}
+
+
+def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
+    """Solve the subcases of a deck and write the result file.
+
+    Args:
+        deck: from `fem.read_deck`.
+        path: of the HDF5 file.
+        options: solver and console.
+
+    Returns:
+        The path.
+
+    Raises:
+        InputError: the deck asks for what is not there or cannot be solved; the
+            message names cards, grids or subcases.
+    """
+    options = options or Options()
+    start = perf_counter()
+    work = _by_solution(deck)
+    structure = Structure(deck, work[0][1][0])
+    with ResultFile(path) as results:
+        _introduce(structure, options)
+        results.write_model(structure)
+        for number, subcases in work:
+            _SOLVERS[number](structure, subcases, results, options)
+    options.console.say(f"{path} ({perf_counter() - start:.1f} s)")
+    return path
+
+
+def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
+    """Subcases by the solution that they ask for, in order.
+
+    Raises:
+        InputError: a solution that is not supported, no subcases.
+    """
+    if not deck.sol:
+        raise InputError(
+            f"{deck.path}: no SOL statement; expected SOL 101, 103, 109 or 112"
+        )
+    work: dict[int, list[Subcase]] = {}
+    for subcase in deck.case_control:
+        number = _ANALYSES.get(subcase.analysis.upper(), deck.sol)
+        if number not in _SOLVERS:
+            raise InputError(
+                f"{deck.path}: SOL {number} is not supported; expected "
+                f"{', '.join(map(str, _SOLVERS))}"
+            )
+        work.setdefault(number, []).append(subcase)
+    if not work:
+        raise InputError(f"{deck.path}: no subcases")
+    return list(work.items())
+
+
+def _introduce(structure: Structure, options: Options) -> None:
+    """Say what the model is."""
+    console, points, weight = options.console, structure.points, structure.weight
+    counts: dict[str, int] = {}
+    for block in structure.blocks:
+        counts[block.card] = counts.get(block.card, 0) + len(block.id)
+    elements = ", ".join(f"{n} {card}" for card, n in sorted(counts.items()))
+    console.say(
+        f"{structure.deck.path.name}: {len(points.grid_id)} grids, {elements}; "
+        f"{structure.size} free of {points.size} freedoms"
+    )
+    x, y, z = weight.center
+    i = weight.inertia
+    console.say(
+        f"mass {weight.total:.7g}, centre of gravity {x:.7g} {y:.7g} {z:.7g}, inertia "
+        f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
+        f"{i[0, 2]:.5g} {i[1, 2]:.5g}"
+    )
+    for notice in structure.notices:
+        console.say(f"notice: {notice}")

@@ -1,0 +1,164 @@
+"""SOL 101: subcases with the same supports are solved as one block."""
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+
+import numpy as np
+import numpy.typing as npt
+
+from fem.constraints.elimination import Elimination
+from fem.deck.case_control import Subcase
+from fem.errors import InputError
+from fem.linear_solver import SingularMatrixError
+from fem.loads import enforced_displacements, static_load
+from fem.recovery import element_tables
+from fem.results import ResultFile
+from fem.solution.options import Options
+from fem.statics import inertia_relief, solve_static
+from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+
+
+def solve_statics(
+    structure: Structure,
+    subcases: list[Subcase],
+    results: ResultFile,
+    options: Options,
+) -> None:
+    """Displacements, constraint forces and element results of static subcases.
+
+    Raises:
+        InputError: no load, or a structure that moves freely; its grids are named.
+    """
+    for group in _with_same_support(subcases):
+        model = structure.with_subcase(group[0])
+        load, eliminations = _loads(model, group)
+        u_g, residual = _solve(model, load, eliminations, options)
+        for i, subcase in enumerate(group):
+            _write(model, subcase, u_g[:, i], residual[:, i], results)
+            largest = np.abs(u_g[:, i]).max(initial=0.0)
+            options.console.say(
+                f"statics, subcase {subcase.id}: largest displacement {largest:.7g}"
+            )
+
+
+def _with_same_support(subcases: Iterable[Subcase]) -> Iterator[list[Subcase]]:
+    for _, group in groupby(
+        subcases, key=lambda c: (c.spc, c.mpc, c.suport1, c.nsm, c.k2gg, c.m2gg)
+    ):
+        yield list(group)
+
+
+def _loads(model: Structure, group: list[Subcase]) -> tuple[Float64, list[Elimination]]:
+    """(g, c) loads, and the constraints with the enforced motion of each subcase."""
+    loads, eliminations = [], []
+    for subcase in group:
+        dof, value = enforced_displacements(model.deck, model.points, subcase.load)
+        elimination = model.elimination
+        if len(dof):
+            elimination = elimination.with_enforced(dof, value)
+        if not subcase.load and not elimination.enforced.any():
+            raise InputError(
+                f"{model.deck.path}: subcase {subcase.id} selects no LOAD and enforces "
+                "no displacement; there is nothing to solve"
+            )
+        loads.append(
+            static_load(model.deck, model.points, subcase.load, model.matrices.mass)
+            if subcase.load
+            else np.zeros(model.points.size)
+        )
+        eliminations.append(elimination)
+    return np.stack(loads, axis=1), eliminations
+
+
+def _solve(
+    model: Structure,
+    load: Float64,
+    eliminations: list[Elimination],
+    options: Options,
+) -> tuple[Float64, Float64]:
+    """(g, c) displacements and forces of constraint."""
+    k_gg, T = model.matrices.stiffness, model.elimination.T
+    u_0 = np.stack([elimination.u_0 for elimination in eliminations], axis=1)
+    p_f = np.asfortranarray(T.T @ (load - k_gg @ u_0))
+    relief = int(model.deck.param("INREL"))
+    inertia = np.zeros_like(load)
+
+    def solve() -> Float64:
+        if relief >= 0:
+            return solve_static(
+                model.stiffness, p_f, solver=options.solver, threads=options.threads
+            )
+        support = model.free_rows(model.support_dof, "SUPORT") if relief == -1 else None
+        if support is not None and not len(support):
+            raise InputError(
+                f"{model.deck.path}: PARAM,INREL,-1 needs SUPORT; expected the "
+                "freedoms that hold the structure determinately, or PARAM,INREL,-2"
+            )
+        try:
+            result = inertia_relief(
+                model.stiffness,
+                model.mass,
+                p_f,
+                support=support,
+                rigid_body=model.rigid_body,
+                solver=options.solver,
+            )
+        except ValueError as error:
+            raise InputError(f"{model.deck.path}: inertia relief: {error}") from None
+        inertia[:] = _inertia_forces(model, result.motions @ result.acceleration)
+        return result.displacement
+
+    u_f = model.guarded(solve, dynamic=False, error=SingularMatrixError)
+    u_g = T @ u_f + u_0
+    return u_g, k_gg @ u_g - load - inertia
+
+
+def _inertia_forces(model: Structure, acceleration_f: Float64) -> Float64:
+    """(g, c) inertia forces of accelerations (f, c)."""
+    return -(model.matrices.mass @ (model.elimination.T @ acceleration_f))
+
+
+def _write(
+    model: Structure,
+    subcase: Subcase,
+    u_g: Float64,
+    residual: Float64,
+    results: ResultFile,
+) -> None:
+    name, points, wanted = f"static/{subcase.id}", model.points, subcase.outputs
+    results.write_points(
+        f"{name}/displacement", points, u_g, wanted.get("DISPLACEMENT", "ALL")
+    )
+    results.write_points(
+        f"{name}/spc_force",
+        points,
+        model.elimination.spc_force(residual),
+        wanted.get("SPCFORCES", "ALL"),
+    )
+    if "MPCFORCES" in wanted:
+        force = model.elimination.mpc_force(residual)
+        results.write_points(f"{name}/mpc_force", points, force, wanted["MPCFORCES"])
+    write_element_results(model, subcase, u_g, results, name)
+
+
+def write_element_results(
+    model: Structure,
+    subcase: Subcase,
+    u_g: Float64,
+    results: ResultFile,
+    name: str,
+) -> None:
+    """Forces and stresses that a subcase asks for.
+
+    Args:
+        model: the structure.
+        subcase: its requests.
+        u_g: (g,) displacements, or (g, k) for k sets of results.
+        results, name: where to write.
+    """
+    for quantity, kind in (("FORCE", "force"), ("STRESS", "stress")):
+        selection = subcase.outputs.get(quantity, "NONE")
+        for table in element_tables(model.points, model.blocks, kind, selection):
+            results.write_table(f"{name}/element_{kind}", table, table.of(u_g))
