@@ -35,6 +35,7 @@ _FIRST_ID = {
     **{"elevator_right": 230001, "elevator_left": 235001, "rudder": 240001},
 }
 _BRACKET_ID = 250000
+FITTING = 0.05  # m behind the spar
 
 
 def add_lifting_shells(
@@ -132,7 +133,8 @@ def _bracket(
 ) -> None:
     """A track or hinge bracket: a bar from the parent's rear spar to a reference node.
 
-    Its foot stands on the spar, tied to three stations of it; its mass is the parent's.
+    Its foot is a fitting behind the spar, tied to three stations of it; its mass is the
+    parent's.
     """
     axis = 2 if part == "rudder" else 1
     along = np.abs(parent.stations.rear[:, 0] - abs(p[axis]))
@@ -140,7 +142,7 @@ def _bracket(
     foot = _BRACKET_ID + node % 10000
     where = f"brackets {part}"
     middle = parent.p[k, -1, [0, -1]].mean(axis=0)
-    model.grids(where, [foot], middle[None])
+    model.grids(where, [foot], middle[None] + [FITTING, 0.0, 0.0])
     model.average(where, foot, parent.spar(-1, k - 1, k + 1))
     data = facts("movables")["bracket"]
     pid = model.bar_property(

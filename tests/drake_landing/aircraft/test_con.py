@@ -2,12 +2,11 @@
 
 import numpy as np
 import pytest
-from pyNastran.bdf.mesh_utils.mass_properties import mass_properties
 
 from drake_landing.aircraft import build, write_model
 from drake_landing.aircraft.facts import facts
-from drake_landing.aircraft.masses import gear_mass_centre
 from fem.errors import InputError
+from fem.modes import normal_modes
 
 
 def test_614_grids_of_which_261_are_interface_nodes(con):
@@ -22,8 +21,35 @@ def test_614_grids_of_which_261_are_interface_nodes(con):
     assert (len(outline) - len(fuselage), len(fuselage)) == (198, 155)
 
 
-def test_pynastran_reads_it_without_a_warning(con):
+def test_two_readers_have_nothing_to_say(con):
+    assert con.bdf.nodes
     assert con.complaints == []
+    assert con.structure.notices == []
+    assert con.structure.damping_notices == []
+
+
+def test_exactly_six_rigid_modes_and_first_wing_bending(con):
+    structure = con.structure
+    modes = normal_modes(
+        structure.stiffness,
+        structure.mass,
+        count=30,
+        rigid_body=structure.rigid_body,
+    )
+    assert modes.rigid == 6
+    first = modes.frequency_hz[6]
+    assert 2.0 < first < 2.6
+    tips = [con.model.monitoring[f"wing_tip_{side}"] for side in ("left", "right")]
+    left, right = structure.operator(tips, [3]) @ modes.shape[:, 6]
+    assert left == pytest.approx(right, rel=1e-4)
+    # The check list of a beam model of this aircraft: 14 elastic modes below 10 Hz.
+    assert 12 <= np.sum(modes.frequency_hz[6:] < 10) <= 18
+
+
+def test_more_than_300_modes_exist(con):
+    assert con.structure.size > 1000
+    mass = con.structure.mass.toarray()
+    assert np.linalg.eigvalsh(mass / np.sqrt(np.outer(*[mass.diagonal()] * 2)))[0] > 0
 
 
 def test_monitoring_points_and_attachments_stand_where_they_should(con):
@@ -39,7 +65,7 @@ def test_monitoring_points_and_attachments_stand_where_they_should(con):
 
 
 def test_aircraft_weighs_72500_kg_at_25_percent_of_the_mean_chord(con):
-    mass, cg, inertia = _whole_aircraft(con)
+    mass, cg, inertia = con.whole_aircraft()
     target = facts("overall")
     assert mass == pytest.approx(72500.0, rel=1e-6)
     assert cg[0] == pytest.approx(target["mass"]["x_cg"], abs=1e-3)
@@ -111,22 +137,6 @@ def test_bad_requests_are_explained(tmp_path):
         build("con", "7")
     with pytest.raises(InputError, match="does not exist"):
         write_model("con", tmp_path / "none" / "d150.bdf")
-
-
-def _whole_aircraft(con):
-    """Mass, centre and inertia of the deck with the extended gears."""
-    mass, cg, six = mass_properties(con.bdf)
-    ixx, iyy, izz, ixy, ixz, iyz = six
-    inertia = np.array([[ixx, -ixy, -ixz], [-ixy, iyy, -iyz], [-ixz, -iyz, izz]])
-    bodies = [(mass, cg, inertia)]
-    bodies += [(*gear_mass_centre(g), np.zeros((3, 3))) for g in con.model.gears]
-    total = sum(m for m, _, _ in bodies)
-    centre = np.sum([m * c for m, c, _ in bodies], axis=0) / total
-    whole = np.zeros((3, 3))
-    for m, c, own in bodies:
-        arm = c - centre
-        whole += own + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return total, centre, whole
 
 
 def _masses_by_node(con, flip):
