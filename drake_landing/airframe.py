@@ -129,12 +129,13 @@ def check_nodes(structure: Structure, aircraft: Aircraft) -> None:
         if not there
     ]
     if problems:
-        raise InputError(problems)
+        cut = [text for text in structure.deck.notices if "ENDDATA" in text]
+        raise InputError([*problems, *cut])
     loose = _loose(structure, aircraft.nodes)
     if loose:
         raise InputError(
-            f"{aircraft.nodes[node]}: grid {node} of {deck} is not connected to the "
-            "structure; expected a grid that elements or rigid elements hold"
+            f"{aircraft.nodes[node]}: grid {node} of {deck} does not move with the "
+            "structure: it is constrained (SPC), or not connected to any element"
             for node in loose
         )
 

@@ -77,3 +77,21 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         monitoring={**model.monitoring, **airframe.monitoring},
         interface=tuple(sorted({*model.interface, *airframe.interface})),
     )
+
+
+def write_model_deck(level: str, path: Path) -> str:
+    """Writes a reference aircraft and says what was written.
+
+    Raises:
+        InputError: unknown level, or the folder does not exist.
+    """
+    from drake_landing.aircraft import write_model
+
+    model = write_model(level, path)
+    gears = sum(gear.mass for gear in model.gears)
+    points = ", ".join(f"{name} {grid}" for name, grid in model.monitoring.items())
+    return (
+        f"{path}: {model.name}, {len(model.grid_id)} grids, topology {model.topology}; "
+        f"airframe {model.masses['mass'].sum():,.0f} kg, gears {gears:,.0f} kg\n"
+        f"monitoring points: {points}"
+    )

@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 
 Float64 = npt.NDArray[np.float64]
 
-_FRAMES_PER_SECOND = 25.0
+_FRAMES_PER_SECOND = 16.0
 _SECONDS = 8.0  # of the replay
 _FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _VISIBLE_SHARE = 0.02  # of the aircraft's size: a deformation that one sees
@@ -161,7 +161,7 @@ def _runway(
     middle = -length / 2 + 3 * size
     ground = Box(length, 1.3 * size, 0.1)
     meshcat.SetObject("/runway/ground", ground, _GROUND)
-    meshcat.SetTransform("/runway/ground", RigidTransform([middle, 0, -0.052]))
+    meshcat.SetTransform("/runway/ground", RigidTransform([middle, 0, -0.09]))
     dash, gap = 0.25 * size, 0.75 * size
     for i, x in enumerate(np.arange(middle - length / 2, middle + length / 2, gap)):
         path = f"/runway/marks/{i}"

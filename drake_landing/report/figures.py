@@ -15,6 +15,7 @@ from drake_landing.report.plots import (
     common_scale,
     curve,
     finish,
+    legend,
     panels,
     svg,
 )
@@ -47,6 +48,7 @@ def attachment_loads(history: LandingHistory) -> str:
                     what = "force" if row == 0 else "moment"
                     last = "time, s" if row == 1 else None
                     finish(axes, f"{words(gear)}: {what}", unit, x=last)
+            legend(figure, grid[0][0])
             pictures.append(svg(figure, f"attachment loads of {', '.join(group)}"))
     return "\n".join(pictures)
 
@@ -80,6 +82,7 @@ def struts_and_tyres(history: LandingHistory) -> str:
             }
             last = "time, s" if name in ("drag", "spin") else None
             finish(axes, titles[name], unit, x=last)
+        legend(figure, stroke)
         return svg(figure, "strokes, tyre loads and wheel speeds")
 
 
@@ -116,7 +119,8 @@ def accelerations(
             axes = grid[0][i]
             curve(axes, transient.index, transient[axis], TRANSIENT, "direct transient")
             curve(axes, multibody.index, multibody[axis], MULTIBODY, "multibody")
-            finish(axes, f"{words(point)}, {axis}", "m/s²", legend=i == 0)
+            finish(axes, f"{words(point)}, {axis}", "m/s²")
+        legend(figure, grid[0][0])
         return svg(figure, f"acceleration of {point}")
 
 
@@ -141,10 +145,11 @@ def spectra(
             axes.xaxis.minorticks_off()
             below = i + 2 >= len(transient)
             label = "frequency of the oscillator, Hz" if below else None
-            finish(axes, f"{words(point)}, z", "m/s²", x=label, legend=i == 0)
+            finish(axes, f"{words(point)}, z", "m/s²", x=label)
             axes.tick_params(labelbottom=below)
         for axes in places[len(transient) :]:
             axes.set_visible(False)
+        legend(figure, places[0])
         return svg(figure, "shock response spectra")
 
 
@@ -161,8 +166,9 @@ def energy(history: LandingHistory) -> str:
         finish(shares, "Change of energy since the start", unit)
         sink = history.figures["sink_energy"]
         curve(rest, table.index, table["balance"] / sink, INK)
-        finish(rest, "Sum of all changes over the sink energy", "1")
+        finish(rest, "Sum of all changes over the sink energy", "")
         rest.ticklabel_format(axis="y", style="sci", scilimits=(-2, 3))
+        legend(figure, shares)
         return svg(figure, "energy audit")
 
 

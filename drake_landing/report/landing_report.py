@@ -56,8 +56,7 @@ def write_report(path: Path, result: "ProcessResult") -> None:
             key_figures=key_figures(result),
             notices=result.notices,
             sections=list(_sections(result)),
-            footer="drake-landing "
-            + ", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
+            footer=", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
             + f", Python {platform.python_version()}. SI units.",
         ),
     )

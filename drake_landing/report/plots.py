@@ -108,18 +108,19 @@ def curve(
     axes.plot(time, values, color=color, label=label, linestyle=style)
 
 
-def finish(
-    axes: Axes, title: str, unit: str, *, x: str | None = "time, s", legend: bool = True
-) -> None:
-    """Title with unit, axis text, legend outside of the curves' way."""
+def finish(axes: Axes, title: str, unit: str, *, x: str | None = "time, s") -> None:
+    """Title with unit, text of the horizontal axis, line at zero."""
     axes.set_title(f"{title}, {unit}" if unit else title)
     if x:
         axes.set_xlabel(x)
     axes.margins(x=0.0)
     axes.axhline(0.0, color=FAINT, linewidth=0.7, zorder=1)
+
+
+def legend(figure: Figure, axes: Axes) -> None:
+    """One legend for all panels, above them, out of the curves' way."""
     handles, labels = axes.get_legend_handles_labels()
-    if legend and labels:
-        axes.legend(handles, labels, loc="best", ncols=min(3, len(labels)))
+    figure.legend(handles, labels, loc="outside upper right", ncols=len(labels))
 
 
 def common_scale(series: Sequence[npt.ArrayLike], unit: str) -> tuple[float, str]:

@@ -1,0 +1,206 @@
+"""The command line: exit states and messages, bad input of every kind."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from drake_landing.cli import app, guarded
+
+HERE = Path(__file__).parent
+CASE = HERE.joinpath("tiny_case.yaml").read_text()
+DECK = HERE.joinpath("tiny_aircraft.bdf").read_text()
+Run = Callable[..., tuple[int, str, str]]
+
+
+@pytest.fixture
+def command(capsys: pytest.CaptureFixture[str]) -> Run:
+    """Runs a command line: exit status, standard output, standard error."""
+
+    def run(*arguments: str | Path) -> tuple[int, str, str]:
+        status = guarded(app, [str(a) for a in arguments])
+        captured = capsys.readouterr()
+        return status, captured.out, captured.err
+
+    return run
+
+
+def written(folder: Path, case: str = CASE, deck: str | None = DECK) -> Path:
+    if deck is not None:
+        (folder / "tiny_aircraft.bdf").write_text(deck)
+    path = folder / "case.yaml"
+    path.write_text(case)
+    return path
+
+
+def changed(text: str, old: str, new: str) -> str:
+    assert old in text
+    return text.replace(old, new)
+
+
+BAD_CASES = {
+    "unknown key": (
+        "sink_rate:",
+        "sink_rte:",
+        ["sink_rte", "did you mean 'sink_rate'"],
+    ),
+    "wrong unit": ("sink_rate: 1.2", "sink_rate: 240", ["found 240", "m/s"]),
+    "sink rate 0": ("sink_rate: 1.2", "sink_rate: 0", ["found 0", "greater than 0"]),
+    "no deck": ("deck: tiny_aircraft.bdf", "deck: gone.bdf", ["gone.bdf", "no such"]),
+    "attachment node absent": (
+        "attachment_node: 52",
+        "attachment_node: 59",
+        ["main_right", "grid 59", "52"],
+    ),
+    "monitoring point absent": ("tail: 9", "tail: 10", ["tail", "grid 10", "9"]),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "words"), BAD_CASES.values(), ids=BAD_CASES)
+def test_bad_cases(
+    tmp_path: Path, command: Run, old: str, new: str, words: list[str]
+) -> None:
+    path = written(tmp_path, changed(CASE, old, new))
+    status, _, message = command("run", path, "--out", tmp_path / "out")
+    assert status == 2
+    assert all(word in message for word in words), message
+    assert "Traceback" not in message
+
+
+BAD_DECKS = {
+    "unsupported cards": (
+        lambda t: changed(t, "ENDDATA", "CBEND,1,2,3,4\nCGAP,5,6,7,8\nENDDATA"),
+        ["CBEND", "CGAP"],
+    ),
+    "empty": (lambda t: "", ["empty"]),
+    "comments only": (lambda t: "$ nothing\n", ["empty"]),
+    "truncated before the bulk data": (
+        lambda t: t[: t.index("BEGIN BULK")],
+        ["BEGIN BULK"],
+    ),
+    "truncated within": (
+        lambda t: t[: t.index("GRID,41")],
+        ["main_left: grid 53", "may be cut off"],
+    ),
+    "not a deck": (lambda t: "\0\1\2", ["not a text file"]),
+    "held": (
+        lambda t: changed(
+            changed(t, "METHOD = 1", "METHOD = 1\nSPC = 1"),
+            "ENDDATA",
+            "SPC1,1,3,3\nENDDATA",
+        ),
+        ["rigid-body modes, expected 6", "z"],
+    ),
+    "monitoring point held": (
+        lambda t: changed(t, "GRID,1,,0.0,0.,0.", "GRID,1,,0.0,0.,0.,,3"),
+        ["nose", "grid 1 ", "constrained"],
+    ),
+    "loose part": (
+        lambda t: changed(t, "ENDDATA", LOOSE + "ENDDATA"),
+        ["motions without stiffness", "grid 9"],
+    ),
+    "node on its own": (
+        lambda t: changed(t, "RBE2,652,21,123456,52\n", ""),
+        ["main_right", "grid 52", "not connected"],
+    ),
+}
+LOOSE = """GRID,91,,5.,0.,3.
+GRID,92,,6.,0.,3.
+CBAR,991,1,91,92,0.,0.,1.
+CONM2,992,91,,5.
+,1.,,1.,,,1.
+CONM2,993,92,,5.
+,1.,,1.,,,1.
+"""
+
+
+@pytest.mark.parametrize(("spoil", "words"), BAD_DECKS.values(), ids=BAD_DECKS)
+def test_bad_decks(
+    tmp_path: Path, command: Run, spoil: Callable[[str], str], words: list[str]
+) -> None:
+    path = written(tmp_path, deck=spoil(DECK))
+    status, _, message = command("run", path, "--out", tmp_path / "out")
+    assert status == 2, message
+    assert all(word in message for word in words), message
+    assert "Traceback" not in message
+
+
+def test_missing_case_file(tmp_path: Path, command: Run) -> None:
+    status, _, message = command("run", tmp_path / "none.yaml")
+    assert (status, message) == (2, f"error: {tmp_path}/none.yaml: no such case file\n")
+
+
+@pytest.mark.parametrize(
+    "arguments", [["fly"], ["run"], ["run", "a.yaml", "--colour"], ["check"]]
+)
+def test_wrong_usage(command: Run, arguments: list[str]) -> None:
+    status, out, message = command(*arguments)
+    assert status == 2
+    assert message
+    assert out == ""
+
+
+def test_unwritable_folder(tmp_path: Path, command: Run) -> None:
+    path = written(tmp_path)
+    (tmp_path / "out").write_text("a file")
+    status, _, message = command("run", path, "--out", tmp_path / "out")
+    assert status == 2
+    assert "out" in message
+    assert "Traceback" not in message
+
+
+def test_an_internal_failure_is_one_line_and_status_1(
+    tmp_path: Path, command: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def broken(*_: object) -> None:
+        raise ZeroDivisionError("oops")
+
+    monkeypatch.setattr("drake_landing.cases_io.load_case", broken)
+    status, _, message = command("check", tmp_path / "case.yaml")
+    assert status == 1
+    assert "internal failure: ZeroDivisionError: oops" in message
+    assert "Traceback" not in message
+
+
+def test_check_explains_a_case(tmp_path: Path, command: Run) -> None:
+    status, out, message = command("check", written(tmp_path))
+    assert (status, message) == (0, "")
+    assert "23 grids" in out
+    assert "5,430.0 kg" in out
+    assert "main_right (52)" in out
+    assert list(tmp_path.glob("out*")) == []
+
+
+def test_schema_is_json(command: Run) -> None:
+    status, out, _ = command("check", "--schema")
+    assert status == 0
+    assert json.loads(out)["title"] == "Case"
+
+
+def test_reference_aircraft_is_written(tmp_path: Path, command: Run) -> None:
+    path = tmp_path / "con.bdf"
+    status, out, _ = command("model", "con", "--out", path)
+    assert status == 0
+    assert "614 grids" in out
+    assert path.read_text().count("\nGRID") == 614
+    status, _, message = command("model", "cone", "--out", path)
+    assert status == 2
+    assert "did you mean 'con'" in message
+
+
+def test_help_needs_no_drake() -> None:
+    """Answers that cost no computation come at once."""
+    code = (
+        "import sys; from drake_landing.cli import app, guarded\n"
+        "status = guarded(app, ['--help']) or guarded(app, ['check', '--schema'])\n"
+        "heavy = {'pydrake', 'matplotlib', 'scipy'} & set(sys.modules)\n"
+        "sys.exit(f'{status} {heavy}' if status or heavy else 0)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    assert "demo" in done.stdout

@@ -1,0 +1,212 @@
+"""The whole process on the tiny aircraft, and what both models must agree on."""
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pandas as pd
+import pytest
+
+from drake_landing.airframe import AirframeModel, load_airframe, mass_properties
+from drake_landing.case import Airframe, Case
+from drake_landing.cases_io import load_case, parse_case
+from drake_landing.comparison import COLUMNS
+from drake_landing.inputs import prepare_aircraft
+from drake_landing.process import ProcessResult, run_case
+from drake_landing.progress import Silent
+from drake_landing.summary import key_figures
+
+HERE = Path(__file__).parent
+TEXT = HERE.joinpath("tiny_case.yaml").read_text()
+
+
+def variant(*changes: tuple[str, str]) -> Case:
+    text = TEXT
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    return parse_case(text, folder=HERE)
+
+
+class Stages(Silent):
+    def __init__(self) -> None:
+        self.texts: list[str] = []
+        self.shares: list[float] = []
+
+    def stage(self, text: str) -> None:
+        self.texts.append(text)
+
+    def share(self, done: float, text: str = "") -> None:
+        self.shares.append(done)
+
+
+@pytest.fixture(scope="module")
+def stages() -> Stages:
+    return Stages()
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("run")
+
+
+@pytest.fixture(scope="module")
+def result(folder: Path, stages: Stages) -> ProcessResult:
+    """Sixty of 114 elastic modes."""
+    case = variant(
+        ("select: count 6", "select: count 60"),
+        ("duration: 0.4", "duration: 0.2"),
+        ("step: 5.0e-4", "step: 1.0e-4"),
+    )
+    return run_case(case, folder, stages)
+
+
+def airframe(basis: str = "full-modes", select: str = "count 12") -> AirframeModel:
+    case = variant(("select: count 6", f"select: {select}\n  basis: {basis}"))
+    return load_airframe(case.airframe, prepare_aircraft(case, Path("unused")))
+
+
+def test_multibody_and_transient_are_one_model(result: ProcessResult) -> None:
+    # With all 114 modes 0.03 %; sixty leave the response above 200 Hz out, of which
+    # the stiff fore and aft motion has more.
+    table = result.comparison
+    table = table[table["peak_fe"] > 0.05 * table["peak_fe"].max()]
+    assert len(table) == 10
+    assert table["rms_error"].max() < 1e-2
+    assert table[table["axis"] == "z"]["rms_error"].max() < 1.5e-3
+
+
+def test_tables_have_the_agreed_columns(result: ProcessResult, folder: Path) -> None:
+    table = pd.read_csv(folder / "comparison.csv")
+    assert list(table.columns) == COLUMNS
+    assert len(table) == 15
+    assert set(table["run"]) == {"tiny"}
+    assert set(table["modes"]) == {60}
+    gears = pd.read_csv(folder / "gears.csv")
+    assert list(gears.columns) == ["run", "gear", "quantity", "peak", "time"]
+    assert set(gears["quantity"]) == {
+        *("tyre_vertical", "tyre_drag", "stroke"),
+        *(f"attachment_{c}" for c in ("fx", "fy", "fz", "mx", "my", "mz")),
+    }
+
+
+def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
+    assert {path.name for path in folder.iterdir()} == {
+        *("results.h5", "report.html", "landing.html", "landing_sol109.bdf"),
+        *("comparison.csv", "gears.csv", "attachment_loads.csv", "tyres.csv"),
+        *("struts.csv", "accelerations_multibody.csv", "accelerations_transient.csv"),
+    }
+    with h5py.File(folder / "results.h5") as file:
+        assert file["fe/monitoring/tail/value"].shape == (2001, 3)
+        assert file["attachment_loads/load"].shape == (2001, 3, 6)
+        again = parse_case(file.attrs["case"])
+        assert again.scenario == result.case.scenario
+
+
+def test_report_is_self_contained(result: ProcessResult, folder: Path) -> None:
+    page = (folder / "report.html").read_text()
+    assert "<script" not in page
+    assert 'src="' not in page
+    assert page.count("<svg") == 5 + len(result.response)
+    for figure, value in key_figures(result):
+        assert figure in page
+        assert value.split(" (")[0] in page
+    ids = [part.split('"')[0] for part in page.split(' id="')[1:]]
+    assert len(ids) == len(set(ids))
+
+
+def test_replay_holds_a_recording(folder: Path, result: ProcessResult) -> None:
+    page = (folder / "landing.html").read_text()
+    assert "deformation times" in page
+    assert "times slower than real" in page
+    assert "localhost" not in page.split("<script")[0]
+
+
+def test_progress_tells_every_stage(stages: Stages, result: ProcessResult) -> None:
+    assert len(stages.texts) == 6
+    assert list(result.seconds) == stages.texts
+    assert max(stages.shares) == pytest.approx(1)
+
+
+def test_five_key_figures(result: ProcessResult) -> None:
+    figures = dict(key_figures(result))
+    assert len(figures) == 5
+    assert "kN (main" in figures["largest vertical tyre load of a gear"]
+
+
+def test_mass_properties_are_those_of_the_weight_table() -> None:
+    model = airframe()
+    mass, p_BG, inertia = mass_properties(model.structure)
+    weight = model.structure.weight
+    assert mass == pytest.approx(weight.total)
+    assert p_BG == pytest.approx(weight.center, abs=1e-9)
+    assert inertia == pytest.approx(weight.inertia, rel=1e-9, abs=1e-6)
+
+
+def test_elastic_modes_carry_no_momentum() -> None:
+    model = airframe()
+    structure = model.structure
+    coupling = structure.rigid_body.T @ (structure.mass @ model.basis.shape)
+    size = np.sqrt(model.body.mass)  # of a mass-normalised rigid motion
+    assert np.abs(coupling[:3]).max() < 1e-9 * size
+    assert model.body.modal_mass == pytest.approx(1)
+
+
+def test_damping_is_that_of_the_transient() -> None:
+    body = airframe().body
+    # PARAM,G over W3 times the stiffness
+    expected = np.diag(0.03 / 50 * (2 * np.pi * body.frequency) ** 2)
+    assert body.modal_damping == pytest.approx(expected, rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize("basis", ["guyan", "craig-bampton"])
+def test_reduced_bases_meet_the_lowest_modes_from_above(basis: str) -> None:
+    full, reduced = airframe().body, airframe(basis).body
+    ratio = reduced.frequency[:6] / full.frequency[:6]
+    limit = {"guyan": 0.25, "craig-bampton": 1e-3}[basis]
+    assert np.all(ratio > 1 - 1e-9)
+    assert np.all(ratio < 1 + limit)
+
+
+def test_selection_below_a_frequency() -> None:
+    body = airframe(select="below 20 Hz").body
+    assert body.n > 3
+    assert body.frequency[-1] < 20
+    assert airframe(select=f"count {body.n + 1}").body.frequency[-1] > 20
+    assert airframe(select="count 0").body.n == 0
+
+
+def test_all_modes_of_a_basis() -> None:
+    model = airframe("guyan", "all")
+    assert model.body.n == model.basis.freedoms - 6
+
+
+def test_too_many_modes_are_said() -> None:
+    model = airframe("guyan", "count 5000")
+    assert "asks for 5000 elastic modes" in model.notices[-1]
+
+
+def test_airframe_in_other_axes_is_the_same_body() -> None:
+    """The tiny deck as it stands, read as flying toward +y with x up."""
+    case = variant()
+    turned = Airframe.model_validate(
+        {**case.airframe.model_dump(), "axes": {"forward": "y", "up": "x"}}
+    )
+    aircraft = prepare_aircraft(case, Path("unused"))
+    plain = load_airframe(case.airframe, aircraft)
+    other = load_airframe(turned, aircraft)
+    R = other.R_AB
+    assert (R @ [[0, 1], [-1, 0], [0, 0]]).T.tolist() == [[1, 0, 0], [0, 0, 1]]
+    assert other.body.p_BN == pytest.approx(plain.body.p_BN @ R.T)
+    assert other.body.inertia_G == pytest.approx(R @ plain.body.inertia_G @ R.T)
+    assert np.abs(other.body.rotation) == pytest.approx(
+        np.abs(np.einsum("ab,kbn->kan", R, plain.body.rotation)), rel=1e-6, abs=1e-9
+    )
+
+
+def test_case_of_the_demo_is_valid() -> None:
+    import drake_landing
+
+    case = load_case(Path(drake_landing.__file__).with_name("demo.yaml"))
+    assert case.airframe.model == "con"
+    assert str(case.airframe.select) == "count 1"
