@@ -131,31 +131,34 @@ def _smallest(
 def describe(
     mechanisms: list[Mechanism], label: Callable[[int], str], *, most: int = 12
 ) -> list[str]:
-    """One line per mechanism: how many motions, and what moves.
+    """Lines that say how many motions there are, and what moves.
 
     Args:
         mechanisms: from `find_mechanisms`.
         label: name of a row, "grid 12 T3".
-        most: names per line.
+        most: grids or scalar points per line.
     """
+    loose = [int(m.rows[0]) for m in mechanisms if m.whole and len(m.rows) == 1]
     lines = []
+    if loose:
+        names = _grouped([label(row) for row in loose], most)
+        lines.append(f"{len(loose)} freedoms without any stiffness: {names}")
     for mechanism in mechanisms:
+        if mechanism.whole and len(mechanism.rows) == 1:
+            continue
         count = mechanism.motions.shape[1]
         what = "motion" if count == 1 else "motions"
         where = (
-            "a whole unconnected piece or structure"
+            "an unconnected piece, or the whole structure"
             if mechanism.whole
             else f"{len(mechanism.rows)} freedoms"
         )
-        names = [label(int(row)) for row in mechanism.rows[:most]]
-        more = ", ..." if len(mechanism.rows) > most else ""
-        lines.append(
-            f"{count} {what} without stiffness of {where}: {_grouped(names)}{more}"
-        )
+        names = _grouped([label(int(row)) for row in mechanism.rows], most)
+        lines.append(f"{count} {what} without stiffness of {where}: {names}")
     return lines
 
 
-def _grouped(names: list[str]) -> str:
+def _grouped(names: list[str], most: int) -> str:
     """ "grid 4 T1 T2, grid 5 T1" from labels of single freedoms."""
     points: dict[str, list[str]] = {}
     for name in names:
@@ -164,4 +167,6 @@ def _grouped(names: list[str]) -> str:
             points[name] = []
         else:
             points.setdefault(head, []).append(component)
-    return ", ".join(" ".join([point, *parts]) for point, parts in points.items())
+    shown = [" ".join([point, *parts]) for point, parts in points.items()]
+    more = f", ... ({len(shown)} points)" if len(shown) > most else ""
+    return ", ".join(shown[:most]) + more

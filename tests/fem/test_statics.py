@@ -50,9 +50,9 @@ def test_mechanisms_are_named_piece_by_piece():
     np.testing.assert_array_equal(found[0].rows, np.arange(8))
     np.testing.assert_array_equal(found[1].rows, [24])
     lines = describe(found, lambda row: f"grid {row // 2} {('T3', 'R2')[row % 2]}")
-    assert "2 motions" in lines[0]
-    assert "grid 0 T3 R2, grid 1 T3 R2" in lines[0]
-    assert "grid 12 T3" in lines[1]
+    assert lines[0] == "1 freedoms without any stiffness: grid 12 T3"
+    assert "2 motions" in lines[1]
+    assert "grid 0 T3 R2, grid 1 T3 R2" in lines[1]
 
 
 def test_mechanism_that_moves_mass_is_none_in_dynamics():
