@@ -85,7 +85,7 @@ def _missing(
     values, rows = _flat(table[column])
     bad = (values > 0) & ~np.isin(values, known)
     found = list(dict.fromkeys(zip(rows[bad].tolist(), values[bad].tolist())))
-    key = next(k for k in ("eid", "pid", "mid", "sid", "id", "name") if k in table)
+    key = table.columns[2]  # the first after file and line
     problems = [
         f"{table['file'][row]}:{table['line'][row]}: {name} {table[key][row]}: "
         f"{what} {number} is not defined"

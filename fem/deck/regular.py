@@ -114,7 +114,7 @@ def _column(
 ) -> list:
     convert, default = CONVERTERS[item.kind], item.default
     inherited = columns[default[0]] if isinstance(default, tuple) else None
-    filler = {"f": math.nan, "i": 0}.get(item.kind, "")
+    filler = {"f": math.nan, "u": math.nan, "i": 0}.get(item.kind, "")
     values = []
     for number, (card, fields) in enumerate(rows):
         text = fields[index] if index < len(fields) else ""

@@ -1,0 +1,168 @@
+"""Text of decks: fields, continuations, INCLUDE, encodings, sections."""
+
+import numpy as np
+import pytest
+
+from fem.deck.lexer import read_cards
+from fem.deck.reader import read_deck
+from fem.deck.source import Line
+from fem.deck.values import Malformed, integer, real
+from fem.errors import InputError
+
+
+def cards(text: str) -> list[list[str]]:
+    lines = [Line(t.expandtabs(8), "a", k) for k, t in enumerate(text.split("\n"), 1)]
+    bulk = read_cards(lines)
+    assert not bulk.problems
+    return [card.fields for card in bulk.cards]
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("1.5", 1.5),
+        ("-.5", -0.5),
+        ("2.9+7", 2.9e7),
+        ("2.9-7", 2.9e-7),
+        ("1.D3", 1e3),
+        ("1.E-3", 1e-3),
+        ("+1.e+3".upper(), 1e3),
+        ("7", 7.0),
+    ],
+)
+def test_real_numbers_as_nastran_writes_them(text, value):
+    assert real(text) == value
+
+
+@pytest.mark.parametrize(
+    "text", ["1_0", "NAN", "INF", "1.2.3", "A", "1E999", "٣", "--1"]
+)
+def test_what_python_takes_for_a_number_is_not_one(text):
+    with pytest.raises(Malformed):
+        real(text)
+    with pytest.raises(Malformed):
+        integer(text)
+
+
+SMALL = """\
+PBAR    1       2       3.      4.      5.      6.      7.              +A
++A      8.      9."""
+LARGE = """\
+PBAR*   1               2               3.              4.              *A
+*A      5.              6.              7.
+*       8.              9."""
+MIXED = """\
+PBAR*   1               2               3.              4.              *
+*       5.              6.              7.
+        8.      9."""
+FREE = "PBAR,1,2,3.,4.,5.,6.,7.,,+\n+,8.,9."
+TABS = "PBAR\t1\t2\t3.\t4.\t5.\t6.\t7.\n\t8.\t9."
+LOWER = "pbar, 1 , 2,3. ,4.,5.,6.,7.   $ comment, with commas\n$ between\n\n,8.,9."
+
+
+@pytest.mark.parametrize("text", [SMALL, LARGE, MIXED, FREE, TABS, LOWER])
+def test_formats_give_the_same_fields(text):
+    (fields,) = cards(text)
+    expected = ["PBAR", "1", "2", "3.", "4.", "5.", "6.", "7.", "", "8.", "9."]
+    assert fields == expected
+
+
+def test_blank_continuation_row_keeps_its_place():
+    (fields,) = cards("PBEAM   1       2\n+\n+       8.")
+    assert fields[17] == "8."
+    assert not any(fields[9:17])
+
+
+def test_continuations_find_their_card_by_mnemonic():
+    text = (
+        f"{'CBAR    1':<72}+A\n{'CBAR    2':<72}+B\n{'+B      22':<72}\n"
+        f"{'+A      11':<72}\n"
+    )
+    first, second = cards(text)
+    assert (first[9], second[9]) == ("11", "22")
+
+
+def test_too_many_free_fields_are_an_error_not_a_loss(read):
+    with pytest.raises(InputError, match=r"a.bdf:10: 10 data fields"):
+        read("SPC1,9,123,1,2,3,1,2,3,1,2\n")
+
+
+def test_include_split_relative_quoted_and_by_name(tmp_path, read):
+    folder = tmp_path / "sub dir"
+    folder.mkdir()
+    (folder / "Grids.INC").write_text("GRID,11\nINCLUDE 'more.inc'\n")
+    (folder / "more.inc").write_text("grid,12\n")
+    (tmp_path / "last.inc").write_text("GRID,13")
+    deck = read(
+        "INCLUDE 'sub dir/\n  grids.inc'\ninclude \"..\\elsewhere\\last.inc\"\nGRID,14"
+    )
+    assert deck.cards["GRID"]["id"].tolist() == [1, 2, 3, 11, 12, 13, 14]
+    assert any("last.inc" in notice for notice in deck.notices)
+    row = deck.cards["GRID"].set_index("id").loc[12]
+    assert (row["file"], row["line"]) == (str(folder / "more.inc"), 1)
+
+
+def test_include_that_is_not_there_or_goes_in_circles(tmp_path, read):
+    with pytest.raises(InputError, match=r"a.bdf:10: the file of INCLUDE 'no.inc'"):
+        read("INCLUDE 'no.inc'\n")
+    (tmp_path / "b.bdf").write_text("GRID,1\nINCLUDE 'b.bdf'\n")
+    with pytest.raises(InputError, match="includes itself"):
+        read_deck(tmp_path / "b.bdf")
+
+
+def test_include_of_dmap_in_the_executive_section_is_a_notice(tmp_path):
+    path = tmp_path / "a.bdf"
+    path.write_text("SOL 103\nINCLUDE '/no/such.v9'\nCEND\nBEGIN BULK\nGRID,1\nENDDATA")
+    assert any("DMAP" in notice for notice in read_deck(path).notices)
+
+
+def test_line_ends_byte_order_mark_and_latin_1(tmp_path):
+    path = tmp_path / "a.bdf"
+    path.write_bytes(b"\xef\xbb\xbf$ h\xc3\xa4\r\nGRID,1\r\nGRID,2\r\n")
+    assert len(read_deck(path).cards["GRID"]) == 2
+    path.write_bytes(b"$ Tr\xe4ger\nGRID,1\rGRID,2\n")
+    assert len(read_deck(path).cards["GRID"]) == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (b"", "the deck is empty"),
+        (b"$ nothing\n\n", "the deck is empty"),
+        (b"SOL 103\nCEND\nSPC = 1\n", "ends before BEGIN BULK"),
+        (b"PARAM,POST,0\n", "no GRID"),
+        (b"GRID\x00\x01", "not a text file"),
+        (b"GRID,1\nGRID*   2               \n*\nCBAR,1,1", "CBAR field GA is blank"),
+    ],
+)
+def test_decks_that_hold_nothing_or_are_cut_off(tmp_path, text, message):
+    path = tmp_path / "a.bdf"
+    path.write_bytes(text)
+    with pytest.raises(InputError, match=message):
+        read_deck(path)
+
+
+def test_missing_file_and_folder(tmp_path):
+    with pytest.raises(InputError, match="no such file"):
+        read_deck(tmp_path / "none.bdf")
+    with pytest.raises(InputError):
+        read_deck(tmp_path)
+
+
+def test_missing_enddata_is_a_notice(tmp_path):
+    path = tmp_path / "a.bdf"
+    path.write_text("SOL 103\nCEND\nBEGIN BULK\nGRID,1\n")
+    assert any("ENDDATA" in notice for notice in read_deck(path).notices)
+
+
+def test_superelements_are_refused_unless_asked_for(tmp_path):
+    path = tmp_path / "a.bdf"
+    path.write_text(
+        "SOL 103\nCEND\nBEGIN BULK\nGRID,1\nSEBULK,1,PRIMARY\nSECONCT,1,0\n,1,1\n"
+        "BEGIN SUPER=1\nGRID,1\nGRID,2\nENDDATA\n"
+    )
+    with pytest.raises(InputError, match="BEGIN SUPER = 1"):
+        read_deck(path)
+    deck = read_deck(path, superelements=True)
+    assert deck.superelements[1].cards["GRID"]["id"].tolist() == [1, 2]
+    assert np.array_equal(deck.cards["SECONCT"]["gidas"][0], [1])
