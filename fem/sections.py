@@ -150,18 +150,28 @@ def _cells(boxes: Sequence[Box]) -> Float64:
 
 
 def _ticks(edges: Float64) -> Float64:
-    """Grid lines through all edges, finer where walls are thin."""
+    """Grid lines through all edges; long walls are cut finer near their ends."""
     edges = np.unique(edges)
     edges = edges[np.concatenate([[True], np.diff(edges) > 1e-9 * np.ptp(edges)])]
     lengths = np.diff(edges)
-    counts = np.clip(np.rint(3 * np.sqrt(lengths / lengths.min())), 4, 10)
+    counts = np.clip(np.rint(3 * np.sqrt(lengths / lengths.min())), _FEWEST, 12)
     if len(lengths) == 1:
         counts = np.array([16])
-    parts = [
-        np.linspace(a, b, int(n), endpoint=False)
-        for a, b, n in zip(edges[:-1], edges[1:], counts)
-    ]
-    return np.concatenate([*parts, edges[-1:]])
+    return np.concatenate(
+        [*(_cut(*e) for e in zip(edges[:-1], edges[1:], counts)), edges[-1:]]
+    )
+
+
+# Cells across a wall.
+_FEWEST = 4
+
+
+def _cut(start: float, end: float, count: float) -> Float64:
+    """Grid lines from start to before end."""
+    s = np.arange(count) / count
+    if count > _FEWEST:
+        s = 0.5 * (1.0 - np.cos(np.pi * s))
+    return start + (end - start) * s
 
 
 def _corners(y0: float, y1: float, z0: float, z1: float) -> list[list[float]]:
