@@ -46,6 +46,7 @@ def find_mechanisms(
     *,
     solver: SolverName | None = None,
     mass: sp.csr_matrix | None = None,
+    point: npt.NDArray[np.int64] | None = None,
 ) -> list[Mechanism]:
     """Motions of the free set that cost no energy, one entry per connected piece.
 
@@ -54,9 +55,11 @@ def find_mechanisms(
         solver: as in `factorize`.
         mass: (n, n) M; given, motions that move mass are not counted (they are no
             mechanism in a dynamic solution).
+        point: (n,) number of the grid of each row; a grid hangs together, but for its
+            freedoms without any stiffness.
     """
     matrix = stiffness if mass is None else _dynamic(stiffness, mass)
-    count, piece = connected_components(matrix, directed=False)
+    count, piece = connected_components(_graph(matrix, point), directed=False)
     motions = _null_motions(matrix, solver)
     if motions.shape[1] == 0:
         return []
@@ -70,6 +73,18 @@ def find_mechanisms(
         if len(rows):
             found.append(Mechanism(rows, part, len(rows) == int(inside.sum())))
     return found
+
+
+def _graph(matrix: sp.csr_matrix, point: npt.NDArray[np.int64] | None) -> sp.csr_matrix:
+    """Which rows hang together."""
+    if point is None:
+        return matrix
+    held = np.flatnonzero(matrix.diagonal() != 0.0)
+    order = held[np.argsort(point[held], kind="stable")]
+    same = point[order[1:]] == point[order[:-1]]
+    a, b = order[:-1][same], order[1:][same]
+    links = sp.csr_matrix((np.ones(len(a)), (a, b)), shape=matrix.shape)
+    return sp.csr_matrix(abs(matrix) + links)
 
 
 def _independent(motions: Float64) -> Float64:

@@ -340,8 +340,12 @@ class Structure:
             dynamic: leave out motions that move mass.
             solver: as in `fem.linear_solver.factorize`.
         """
+        f, grids = self.elimination.f, 6 * len(self.points.grid_id)
         mechanisms = find_mechanisms(
-            self.stiffness, solver=solver, mass=self.mass if dynamic else None
+            self.stiffness,
+            solver=solver,
+            mass=self.mass if dynamic else None,
+            point=np.where(f < grids, f // 6, f),
         )
         return describe(mechanisms, self.label)
 
