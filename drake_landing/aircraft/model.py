@@ -166,6 +166,28 @@ class ModelBuilder:
             self._per_area[pid] = density(material) * t
         return self._properties[name]
 
+    def laminate_property(
+        self, name: str, bottom: float, plies: Sequence[tuple[int, float, float]]
+    ) -> int:
+        """PCOMP of that name, written when first asked for; returns its id.
+
+        Args:
+            name: comment, and key.
+            bottom: height of the lowest ply's bottom above the grids, m.
+            plies: (material id, thickness in m, mass per area in kg/m²) from the bottom.
+        """
+        if name not in self._properties:
+            pid = self.next_id("shells", "property")
+            section = self.section("Properties of shells")
+            section.comment(f"property {pid}: {name}")
+            values: list[Value] = [pid, float(f"{bottom:.5g}"), *(None,) * 6]
+            for material, thickness, _ in plies:
+                values += [material, float(f"{thickness:.5g}"), 0.0, "YES"]
+            section.add("PCOMP", *values)
+            self._properties[name] = pid
+            self._per_area[pid] = sum(area for _, _, area in plies)
+        return self._properties[name]
+
     def bar_property(
         self, name: str, material: int, area: float, i1: float, i2: float, j: float
     ) -> int:
