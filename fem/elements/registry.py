@@ -11,9 +11,14 @@ from fem.elements.beam import beam_notices, read_cbeam
 from fem.elements.block import ElementBlock
 from fem.elements.bush import read_cbush
 from fem.elements.concentrated_mass import read_conm1, read_conm2
+from fem.elements.hexa import read_chexa
+from fem.elements.penta import read_cpenta
+from fem.elements.pyramid import read_cpyram
 from fem.elements.quad4 import read_cquad4
 from fem.elements.rod import read_crod, read_ctube
 from fem.elements.scalar import read_cdamp, read_celas1, read_celas2, read_cmass
+from fem.elements.shear_panel import read_cshear
+from fem.elements.tetra import read_ctetra
 from fem.elements.tria3 import read_ctria3
 from fem.elements.visc import read_cvisc
 from fem.errors import InputError
@@ -36,11 +41,16 @@ READERS: dict[str, Reader] = {
     "CDAMP1": read_cdamp,
     "CELAS1": read_celas1,
     "CELAS2": read_celas2,
+    "CHEXA": read_chexa,
     "CMASS1": read_cmass,
     "CONM1": read_conm1,
     "CONM2": read_conm2,
+    "CPENTA": read_cpenta,
+    "CPYRAM": read_cpyram,
     "CQUAD4": read_cquad4,
     "CROD": read_crod,
+    "CSHEAR": read_cshear,
+    "CTETRA": read_ctetra,
     "CTRIA3": read_ctria3,
     "CTUBE": read_ctube,
     "CVISC": read_cvisc,

@@ -201,7 +201,7 @@ class Shell(DenseBlock):
             matrix=matrix,
             id=self.id,
             laminate=self.which,
-            maps=maps,
+            maps=tuple(maps),
         )
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem.elements.block import Float64, Recovery
+from fem.elements.block import Float64, Int64, Recovery
 from fem.elements.stress_measures import (
     plane_columns,
     plane_von_mises,
@@ -83,16 +83,16 @@ class PlyRecovery(Recovery):
 
     Attributes:
         laminate: (e,) which of the laminates.
-        maps: (l, 5 p, 8) from resultants in material axes to 11 22 12 1z 2z of p plies,
-            NaN where a laminate has fewer.
+        maps: per laminate (5 p, 8) from resultants in material axes to 11 22 12 1z 2z of
+            p plies, NaN where a laminate has fewer. (A tuple: not an array of elements.)
     """
 
-    laminate: Float64
-    maps: Float64
+    laminate: Int64
+    maps: tuple[Float64, ...]
 
     def derive(self, linear: Float64) -> Float64:
         """(..., e, 9 p) from (..., e, 8) resultants in material axes."""
-        ply = np.einsum("eij,...ej->...ei", self.maps[self.laminate], linear)
+        ply = np.einsum("eij,...ej->...ei", np.stack(self.maps)[self.laminate], linear)
         ply = ply.reshape(*ply.shape[:-1], -1, 5)
         angle, major, minor = plane_columns(ply[..., 0], ply[..., 1], ply[..., 2])
         derived = np.stack([angle, major, minor, 0.5 * (major - minor)], axis=-1)

@@ -7,9 +7,13 @@ the deficiency of linear elements in bending that varies along an edge l,
     Z = Z_s + sum over edges of l l^T / (24 D_l),
 
 D_l the bending stiffness along the edge (MacNeal's residual bending flexibility). The
-uniform strain takes all of it; the linear one of the quadrilateral takes 1/40, the
-circulation of the triangle, the same shear along all its edges, takes the mean Z. These
-shares reproduce the grid point forces that MSC and NX Nastran print to six digits.
+uniform strain takes all of it; the linear one of the quadrilateral takes 1/40; the
+circulation of the triangle, the same shear along all its edges, takes the mean Z. With
+these shares squares and half squares have the grid point forces that MSC and NX Nastran
+print, to six digits. In longer elements the full length would make the plate soft in
+torsion (a strip of 6 x 2 elements of aspect 10 by a factor of 2): quadrilaterals count
+their edges with the shorter mean side, triangles are held to the half square's ratio of
+the principal values.
 """
 
 import numpy as np
@@ -19,22 +23,36 @@ from fem.elements.shell_geometry import Facet
 from fem.elements.shell_section import ShellSection, intrinsic_bending
 
 LINEAR_SHARE = 0.025
+HALF_SQUARE_RATIO = 3.0
 
 
 def residual_flexibility(shape: Facet, bending: Float64) -> Float64:
-    """(e, 2, 2) sum of l l^T / (24 D_l) over the edges l.
+    """(e, 2, 2) sum of l l^T / (24 D_l) over the edges l, limited for long elements.
 
     Args:
         shape: geometry.
         bending: (e, 3, 3) bending stiffness in element axes.
     """
     edge = shape.edges
-    length = np.linalg.norm(edge, axis=-1, keepdims=True)
-    c, s = np.moveaxis(edge / np.where(length == 0.0, 1.0, length), -1, 0)
+    length = np.linalg.norm(edge, axis=-1)
+    direction = edge / np.where(length == 0.0, 1.0, length)[..., None]
+    c, s = np.moveaxis(direction, -1, 0)
     curvature = np.stack([c * c, s * s, 2.0 * c * s], axis=-1)
     along = np.einsum("eki,eij,ekj->ek", curvature, bending, curvature)
-    share = np.divide(1.0, 24.0 * along, out=np.zeros_like(along), where=along > 0.0)
-    return np.einsum("ek,eki,ekj->eij", share, edge, edge)
+    if shape.corners == 4:
+        sides = 0.5 * (length[:, :2] + length[:, 2:])
+        length = np.broadcast_to(sides.min(axis=1, keepdims=True), length.shape)
+    stiff = along > 0.0
+    share = np.where(stiff, length**2 / (24.0 * np.where(stiff, along, 1.0)), 0.0)
+    residual = np.einsum("ek,eki,ekj->eij", share, direction, direction)
+    return residual if shape.corners == 4 else _limited(residual)
+
+
+def _limited(flexibility: Float64) -> Float64:
+    """Symmetric (e, 2, 2) with the larger principal value at most 3 times the other."""
+    value, vector = np.linalg.eigh(flexibility)
+    value = np.minimum(value, HALF_SQUARE_RATIO * value[:, :1])
+    return (vector * value[:, None, :]) @ vector.transpose(0, 2, 1)
 
 
 def edge_shear(shape: Facet) -> Float64:
