@@ -89,7 +89,8 @@ def _syntax_problem(file: str, error: yaml.YAMLError) -> str:
 
 
 def _kind(data: Any) -> str:
-    return "nothing" if data is None else f"a {type(data).__name__}"
+    names = {dict: "a mapping", list: "a list", str: "a text"}
+    return "nothing" if data is None else names.get(type(data), repr(data))
 
 
 def _repeated_keys(node: yaml.Node, path: str = "") -> list[tuple[int, str]]:
@@ -130,6 +131,8 @@ def _explain(
     if error["type"] == "missing":
         return f"missing{meaning}"
     message = str(error["msg"]).removeprefix("Value error, ")
+    if error["type"] == "gear_kind":
+        return f"kind: found {error['input'].get('kind')!r}, {message}"
     if error["type"] == "value_error" and not _is_scalar(error["input"]):
         return message
     if error["type"] in ("model_type", "dict_type"):

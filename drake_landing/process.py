@@ -77,7 +77,7 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
     airframe = load_airframe(case.airframe, aircraft, stages.progress)
     R_AB = rotation_AB(case.airframe.axes)
 
-    stages.begin(f"landing, {airframe.body.n} modes in the multibody model")
+    stages.begin(f"landing (elastic modes in the multibody model: {airframe.body.n})")
     points = aircraft.monitoring
     landing = build_landing(airframe.body, aircraft.gears, points, R_AB)
     history = fly(

@@ -150,8 +150,8 @@ def _look(meshcat: Meshcat, size: float) -> None:
     meshcat.SetProperty("/Lights/AmbientLight/<object>", "intensity", 1.6)
     meshcat.SetProperty("/Lights/DirectionalLight", "visible", True)
     meshcat.SetProperty("/Lights/DirectionalLight/<object>", "intensity", 1.0)
-    eye = size * np.array([-0.72, -0.78, 0.34])
-    meshcat.SetCameraPose(eye, np.array([-0.02 * size, 0.0, 0.04 * size]))
+    eye = size * np.array([-0.60, -0.66, 0.30])
+    meshcat.SetCameraPose(eye, np.array([0.0, 0.0, 0.05 * size]))
 
 
 def _runway(

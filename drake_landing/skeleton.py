@@ -39,24 +39,47 @@ class Skeleton:
     edges: Int64
 
     def thinned(self, count: int) -> "tuple[Int64, Skeleton]":
-        """At most that many lines, taken evenly, and only the grids they use.
+        """A coarser net with at most that many lines.
+
+        Grids within one cell of space, as small as the count allows, become one.
 
         Returns:
-            Rows of those grids, and the smaller skeleton.
+            Rows of the grids that stay, and the smaller skeleton.
         """
-        edges = self.edges
-        if len(edges) > count:
-            edges = edges[np.linspace(0, len(edges) - 1, count).astype(int)]
-        used, renumbered = np.unique(edges, return_inverse=True)
-        return used, Skeleton(
-            p=self.p[used],
-            shape=self.shape[used],
-            edges=renumbered.reshape(edges.shape),
-        )
+        rows, edges = _used(np.arange(len(self.p)), self.edges)
+        cell = float(np.ptp(self.p, axis=0).max()) / 400
+        while len(edges) > count:
+            rows, edges = _used(*_merged(self.p, self.edges, cell))
+            cell *= 1.2
+        return rows, Skeleton(p=self.p[rows], shape=self.shape[rows], edges=edges)
 
     def deformed(self, amplitudes: Float64, factor: float) -> Float64:
         """(g, 3) positions at modal amplitudes (n,), displacements times a factor."""
         return self.p + factor * (self.shape @ amplitudes)
+
+
+def _merged(p: Float64, edges: Int64, cell: float) -> tuple[Int64, Int64]:
+    """One grid for each cell, the one nearest to the mean of its cell.
+
+    Returns:
+        (c,) rows of these grids, (e, 2) edges in terms of the cells, each once.
+    """
+    place = np.floor((p - p.min(axis=0)) / cell).astype(np.int64)
+    _, of_grid = np.unique(place, axis=0, return_inverse=True)
+    of_grid = of_grid.ravel()
+    members = np.bincount(of_grid)
+    mean = np.column_stack([np.bincount(of_grid, weights=x) for x in p.T])
+    away = np.linalg.norm(p - (mean / members[:, None])[of_grid], axis=1)
+    order = np.lexsort((away, of_grid))
+    first = np.searchsorted(of_grid[order], np.arange(len(members)))
+    pairs = np.unique(np.sort(of_grid[edges], axis=1), axis=0)
+    return order[first], pairs[pairs[:, 0] != pairs[:, 1]]
+
+
+def _used(rows: Int64, edges: Int64) -> tuple[Int64, Int64]:
+    """Without the grids that no edge uses."""
+    used, renumbered = np.unique(edges, return_inverse=True)
+    return rows[used], renumbered.reshape(edges.shape)
 
 
 def element_edges(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:

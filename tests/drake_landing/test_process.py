@@ -1,5 +1,7 @@
 """The whole process on the tiny aircraft, and what both models must agree on."""
 
+import subprocess
+import sys
 from pathlib import Path
 
 import h5py
@@ -210,3 +212,27 @@ def test_case_of_the_demo_is_valid() -> None:
     case = load_case(Path(drake_landing.__file__).with_name("demo.yaml"))
     assert case.airframe.model == "con"
     assert str(case.airframe.select) == "count 1"
+
+
+def test_written_deck_gives_the_same_accelerations(
+    result: ProcessResult, folder: Path, tmp_path: Path
+) -> None:
+    """Its loads and answers are in the displacement frames of the grids."""
+    done = subprocess.run(
+        [sys.executable, "-m", "fem", folder / "landing_sol109.bdf", "--out", tmp_path],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    points = result.airframe.structure.points
+    with h5py.File(tmp_path / "landing_sol109.h5") as file:
+        at = file["transient/1"]
+        assert at["time"][:] == pytest.approx(result.loads.time, abs=1e-9)
+        grids = at["acceleration_grid_id"][:].tolist()
+        for point, table in result.response.items():
+            grid = result.aircraft.monitoring[point]
+            R_BD = points.rotation[points.rows(grid)]
+            found = at["acceleration"][:, grids.index(grid), :3] @ R_BD.T
+            largest = np.abs(table.to_numpy()).max()
+            assert np.abs(found - table.to_numpy()).max() < 1e-6 * largest
