@@ -35,17 +35,18 @@ def wiring_dot(diagram: Diagram, without: Sequence[str] = ("energy_budget",)) ->
             not isinstance(system, VectorLogSink) and system.get_name() not in without
         )
 
-    lines = [
-        f'"{system.get_name()}";' for system in diagram.GetSystems() if shown(system)
-    ]
+    systems = [system for system in diagram.GetSystems() if shown(system)]
+    rank = {system.get_name(): i for i, system in enumerate(systems)}
     arrows = defaultdict(set)
     for (target, _), (source, port) in diagram.connection_map().items():
         if shown(source) and shown(target):
             name = source.get_output_port(port).get_name()
-            arrows[source.get_name(), target.get_name()].add(name)
-    for (source, target), ports in arrows.items():
+            arrows[rank[source.get_name()], rank[target.get_name()]].add(name)
+    names = list(rank)
+    lines = [f'"{name}";' for name in names]
+    for (source, target), ports in sorted(arrows.items()):
         label = "\\n".join(sorted(ports))
-        lines.append(f'"{source}" -> "{target}" [label="{label}"];')
+        lines.append(f'"{names[source]}" -> "{names[target]}" [label="{label}"];')
     return _HEAD + "\n".join(lines) + "\n}\n"
 
 

@@ -1,0 +1,116 @@
+"""The notebooks: tidy files that run, and whose text is true.
+
+Quick runs end soon after touchdown and check what must hold at any time. Full runs
+(marked slow) also check the figures that the text mentions.
+"""
+
+import ast
+from pathlib import Path
+
+import nbformat
+import pytest
+from nbclient import NotebookClient
+
+FOLDER = Path(__file__).resolve().parents[1] / "notebooks"
+NOTEBOOKS = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
+
+# Appended to a notebook as its last cell.
+ALWAYS = {
+    "01_first_landing": """
+assert (total - total.iloc[0]).abs().max() < 1e-5 * sink
+assert impulse > 0 and abs(impulse / gained - 1) < 1e-4
+side = history[[f"{gear} fy" for gear in ("main_left", "main_right")]]
+assert side.sum(axis=1).abs().max() < 1e-6 * vertical.max()
+""",
+    "02_drop_test": """
+assert balance < 1e-6
+assert history["force"].iloc[0] == 0
+assert table["tyre load / kN"].is_monotonic_increasing
+""",
+    "03_gear_physics": """
+assert gained > 0 and abs(impulse / gained - 1) < 1e-2
+assert 0.999 < landing["slip"].max() < 1.03
+""",
+}
+IN_FULL = {
+    "01_first_landing": """
+left_runway = history.index[vertical > 0].max()
+assert 0.63 < left_runway < 0.67
+assert 0.8 < vertical.max() / mass / 5.0 < 1.2
+assert history["wing_tip_right z"].max() > 3 * vertical.max() / mass
+drag = history["main_right_left F_x"]
+assert drag[:0.1].max() > 10 * drag[0.1:].max()
+""",
+    "02_drop_test": """
+assert 0.6 < history["stroke"].max() / 0.47 < 0.72
+assert 0.5 < history["force"].max() / 316.3e3 < 0.6
+assert 0.7 < heat < 0.8
+in_air = history.index[history["F_z"] > 0].max()
+assert 0.6 < in_air < 0.7
+assert history["stops"].idxmin() == pytest.approx(1.0, abs=0.02)
+assert table["stroke / mm"].max() < 470
+""",
+    "03_gear_physics": """
+spun_up = landing.index[landing["slip"] > 0.05].max()
+assert 0.08 < spun_up < 0.1
+aft = stiffness * landing["aft_x"]
+assert -0.75 < aft.min() / aft.max() < -0.6
+assert run["slip"].iloc[-1] > 0.5  # the last run is the icy one
+""",
+}
+
+
+def _load(name):
+    return nbformat.read(FOLDER / f"{name}.ipynb", as_version=4)
+
+
+def _code(notebook):
+    return [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+
+
+def _execute(name, checks, full):
+    notebook = _load(name)
+    flag = "" if full else "import os; os.environ['DRAKE_LANDING_QUICK'] = '1'"
+    notebook.cells.insert(0, nbformat.v4.new_code_cell(flag))
+    checks = "import pytest\n" + "\n".join(checks)
+    notebook.cells.append(nbformat.v4.new_code_cell(checks))
+    NotebookClient(
+        notebook, timeout=280, resources={"metadata": {"path": str(FOLDER)}}
+    ).execute()
+
+
+def test_every_notebook_has_its_checks():
+    assert NOTEBOOKS == sorted(ALWAYS) == sorted(IN_FULL)
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_file_is_tidy(name):
+    notebook = _load(name)
+    nbformat.validate(notebook)
+    assert len(notebook.cells) <= 15
+    assert notebook.metadata.kernelspec.name == "python3"
+    for cell in notebook.cells:
+        assert not cell.get("outputs")
+        assert cell.get("execution_count") is None
+
+
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_imports_stand_in_the_first_code_cell(name):
+    first, *rest = _code(_load(name))
+    kinds = (ast.Import, ast.ImportFrom)
+    assert any(isinstance(node, kinds) for node in ast.parse(first).body)
+    for source in rest:
+        assert not any(isinstance(node, kinds) for node in ast.walk(ast.parse(source)))
+
+
+@pytest.mark.notebook
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_notebook_runs(name):
+    _execute(name, [ALWAYS[name]], full=False)
+
+
+@pytest.mark.slow
+@pytest.mark.notebook
+@pytest.mark.parametrize("name", NOTEBOOKS)
+def test_text_of_notebook_is_true(name):
+    _execute(name, [ALWAYS[name], IN_FULL[name]], full=True)
