@@ -55,7 +55,7 @@ spun_up = landing.index[landing["slip"] > 0.05].max()
 assert 0.08 < spun_up < 0.1
 aft = stiffness * landing["aft_x"]
 assert -0.75 < aft.min() / aft.max() < -0.6
-assert run["slip"].iloc[-1] > 0.5  # the last run is the icy one
+assert run["slip"].iloc[-1] > 0.2  # the last run is the icy one
 """,
 }
 
