@@ -5,9 +5,10 @@ the planes of the third natural direction) is sampled at mid-height along the si
 the triangle; a uniform strain plus the same shear along all sides is fitted, and each
 side's midpoint carries the uniform one plus that of its own side. Bubble functions, the
 sum of the squared area coordinates in the plane and 1 - zeta^2 along the height, free
-the element of locking by Poisson's ratio. Nodal forces and stresses are those that MSC and
-NX Nastran print (right triangular prisms). Uniform strain is exact for extruded meshes;
-with inclined faces the sampled shear is an approximation that refinement removes.
+the element of locking by Poisson's ratio. Nodal forces and stresses are those that MSC
+and NX Nastran print (right triangular prisms). Uniform strain is exact for extruded
+meshes; with inclined faces the sampled shear is an approximation that refinement
+removes.
 """
 
 from typing import TYPE_CHECKING

@@ -1,7 +1,7 @@
 """CSHEAR: Garvey's shear panel, with extensional rods along its sides.
 
 Forces act along the sides only; at each corner they add up to a force along the
-diagonal. Equilibrium fixes them up to one number, the mean shear flow of side 1-2, whose
+diagonal. Equilibrium fixes them up to one number, the mean shear flow of side 1-2. Its
 flexibility is Garvey's (NASTRAN Theoretical Manual, section 5.3): parallelograms,
 trapezoids (sides within 1 % of parallel) and general quadrilaterals. A warped panel
 keeps its forces along the diagonals, in equilibrium. PSHEAR F1 and F2 give the sides

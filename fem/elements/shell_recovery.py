@@ -83,8 +83,8 @@ class PlyRecovery(Recovery):
 
     Attributes:
         laminate: (e,) which of the laminates.
-        maps: per laminate (5 p, 8) from resultants in material axes to 11 22 12 1z 2z of
-            p plies, NaN where a laminate has fewer. (A tuple: not an array of elements.)
+        maps: per laminate (5 p, 8) from resultants in material axes to 11 22 12 1z 2z
+            of p plies, NaN where a laminate has fewer. (A tuple: not one per element.)
     """
 
     laminate: Int64

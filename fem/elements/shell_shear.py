@@ -42,8 +42,7 @@ def residual_flexibility(shape: Facet, bending: Float64) -> Float64:
     if shape.corners == 4:
         sides = 0.5 * (length[:, :2] + length[:, 2:])
         length = np.broadcast_to(sides.min(axis=1, keepdims=True), length.shape)
-    stiff = along > 0.0
-    share = np.where(stiff, length**2 / (24.0 * np.where(stiff, along, 1.0)), 0.0)
+    share: Float64 = length**2 / (24.0 * np.where(along > 0.0, along, np.inf))
     residual = np.einsum("ek,eki,ekj->eij", share, direction, direction)
     return residual if shape.corners == 4 else _limited(residual)
 
