@@ -25,6 +25,7 @@ from fem.elements.registry import element_notices, read_elements
 from fem.errors import InputError
 from fem.mechanisms import describe, find_mechanisms
 from fem.points import Points
+from fem.quality import quality_notices
 from fem.weight import Weight, rigid_modes, weigh
 
 if TYPE_CHECKING:
@@ -299,7 +300,11 @@ class Structure:
     @cached_property
     def notices(self) -> list[str]:
         """What the user should know about this model, in words."""
-        lines = [*self.deck.notices, *element_notices(self.deck)]
+        lines = [
+            *self.deck.notices,
+            *element_notices(self.deck),
+            *quality_notices(self.blocks),
+        ]
         if self.autospc is not None and len(self.autospc.dof):
             names = self.autospc.lines(self.points)
             lines.append(

@@ -20,6 +20,7 @@ from fem.elements.shell_geometry import facet
 from fem.errors import InputError
 from fem.materials import Isotropic, isotropic
 from fem.points import Points
+from fem.quality import bad_facets
 from fem.tables import column, refer, table, where
 
 if TYPE_CHECKING:
@@ -351,13 +352,9 @@ def read_cshear(deck: "Deck", points: Points) -> list[ShearPanel]:
 
 
 def _check(rows: pd.DataFrame, corners: Float64, stiffness: Float64) -> None:
-    edge = facet(corners).edges
-    before = np.roll(edge, 1, axis=1)
-    turn = before[..., 0] * edge[..., 1] - before[..., 1] * edge[..., 0]
+    bad, texts = bad_facets(corners)
     problems = [
-        f"{where('CSHEAR', rows.iloc[i])}: its corners do not make a convex "
-        "quadrilateral, expected them in order around it"
-        for i in np.flatnonzero((turn <= 0.0).any(axis=1))
+        f"{where('CSHEAR', rows.iloc[i])}: {text}" for i, text in zip(bad, texts)
     ]
     problems += [
         f"{where('CSHEAR', rows.iloc[i])}: thickness times shear modulus is "

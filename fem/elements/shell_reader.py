@@ -11,6 +11,7 @@ from fem.elements.shell_geometry import facet
 from fem.elements.shell_normals import deck_normals
 from fem.errors import InputError, nearest
 from fem.points import Points
+from fem.quality import bad_facets
 from fem.shell_properties import ShellProperty, read_shell_properties, sections
 from fem.tables import column, table, where
 
@@ -77,6 +78,11 @@ def _block(
     pids, which = np.unique(pid, return_inverse=True)
     used = tuple(properties[int(p)] for p in pids)
     xyz = points.xyz[at]
+    bad, texts = bad_facets(xyz)
+    if len(bad):
+        raise InputError(
+            f"{where(card, rows.iloc[i])}: {text}" for i, text in zip(bad, texts)
+        )
     angle = _material_angle(points, rows, card, xyz)
     thickness = _corner_thickness(rows, card, used, which, corners)
     return Shell(
