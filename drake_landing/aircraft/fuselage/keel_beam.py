@@ -1,0 +1,52 @@
+"""Keel beam: a box below the wing, from the forward hold past the main gear bay.
+
+Its webs stand on the skin's keel lines; its top is a sheet of its own before and behind
+the wing, and the lower cover of the centre wing box under it.
+"""
+
+import numpy as np
+
+from drake_landing.aircraft.beams import UP
+from drake_landing.aircraft.facts import facts
+from drake_landing.aircraft.fuselage.hull import Hull
+from drake_landing.aircraft.fuselage.wing_fit import Fit
+from drake_landing.aircraft.geometry import Int64
+
+KEEL = "fuselage keel beam"
+
+
+def add_keel_beam(hull: Hull, fit: Fit | None) -> Int64:
+    """Writes webs, top and caps.
+
+    Args:
+        hull: the skin.
+        fit: joins it to the wing's lower cover; None: nothing is joined.
+
+    Returns:
+        (rows, high + 1, 2) twins of the starboard web, from the skin up.
+    """
+    halves, data = hull.halves, facts("fuselage_shell")["keel_beam"]
+    rows = list(hull.rows.between(*data["frames"]))
+    first, last = (hull.rows.at(f) for f in facts("fuselage")["wing_frames"])
+    line = hull.line("keel")
+    share = np.linspace(0.0, 1.0, data["high"] + 1)[1:]
+    web, spine = [], []
+    for row in rows:
+        foot = hull.p(row, line)
+        under_wing = fit is not None and first < row < last
+        z = fit.height("lower", foot[0]) if under_wing else data["top_z"]
+        p = foot + share[:, None] * np.array([0.0, 0.0, z - foot[2]])
+        twins = halves.grids(KEEL, p)
+        web.append(np.concatenate([hull.at(row, line)[None], twins]))
+        spine.append(halves.grids(KEEL, p[-1:] * (1.0, 0.0, 1.0))[0])
+        if under_wing:
+            fit.to_face(KEEL, twins[-1], "lower")
+            fit.to_face(KEEL, spine[-1], "lower")
+    grid = np.array(web)
+    halves.patch(KEEL, halves.sheet("fuselage keel web", data["web"]), grid)
+    top = np.stack([grid[:, -1], np.array(spine)], axis=1)
+    halves.patch(KEEL, halves.sheet("fuselage keel top", data["top"]), top)
+    cap = halves.profile("keel_cap")
+    for edge in (0, -1):
+        halves.chain(KEEL, cap, grid[:, edge], UP)
+    return grid

@@ -1,0 +1,19 @@
+"""Longerons along the edges of the belly's and the tail cone's openings."""
+
+from drake_landing.aircraft.beams import UP
+from drake_landing.aircraft.facts import facts
+from drake_landing.aircraft.fuselage.hull import Hull, tailplane_lines
+
+EDGES = "fuselage opening edges"
+
+
+def add_opening_edges(hull: Hull) -> None:
+    """Along the main gear bay and above and below the tailplane's opening."""
+    halves, data = hull.halves, facts("fuselage_shell")
+    pid = halves.profile("opening_longeron")
+    tail = data["tailplane_opening"]["edge_frames"]
+    edges = [(hull.bay_edge, data["main_bay"]["edge_frames"])]
+    edges += [(line, tail) for line in tailplane_lines(hull.rows, hull.lines)]
+    for line, frames in edges:
+        rows = hull.rows.between(*frames)
+        halves.chain(EDGES, pid, [hull.at(row, line) for row in rows], UP)
