@@ -1,12 +1,13 @@
 """The diagram of a landing: airframe, gears, tyres, and what connects them.
 
-    plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_* ─▸ gear_forces
+    plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_*, ... ─▸ gear_forces
     gear_forces, airframe.node_*, plant.state ─▸ attachment
     attachment.wrench_on_airframe ─▸ airframe
     attachment.wrench_on_gear, gear_forces ─▸ plant
 
 Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_forces`,
-`tire_<wheel>`, `shock_absorber_<gear>` and `energy_budget`.
+`tire_<wheel>`, `shock_absorber_<gear>` and `energy_budget`; where there are such,
+`brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>` and `lift`.
 """
 
 from collections.abc import Sequence
@@ -22,9 +23,16 @@ from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
 
 from drake_landing.gear import LandingGear
 from drake_landing.gear_bodies import AddLandingGear, GearBodies
-from drake_landing.gear_systems import AddGearSystems
+from drake_landing.gear_holds import (
+    attachment_places,
+    attachment_points,
+    require_shared_loads,
+)
+from drake_landing.gear_systems import AddGearSystems, GearSystems
+from drake_landing.lift import AddLift, Lift
 from systems.attachment import Attachment, RigidAttachment
 from systems.bushing_attachment import BushingAttachment
+from systems.distributed_load import DistributedLoad
 from systems.energy_budget import AddEnergyBudget, EnergyBudget
 from systems.flexible_airframe import FlexibleAirframe
 from systems.gear_forces import GearForces
@@ -36,9 +44,11 @@ _LOGGED = {
     "airframe": ("pose", "modal_amplitudes", "monitor_acceleration", "energy"),
     "attachment": ("load_in_airframe_axes", "gap"),
     "plant": ("state",),
-    "energy_budget": ("total", "dissipated"),
+    "energy_budget": ("total", "dissipated", "supplied"),
     "tire": ("contact", "wrench", "energy"),
     "shock_absorber": ("force", "components", "energy"),
+    "brake": ("torque",),
+    "pitch_damper": ("torque", "energy"),
 }
 
 
@@ -50,14 +60,19 @@ class LandingDiagram:
     `initial_state`, then a Simulator.
 
     Attributes:
-        diagram: the whole, with the optional input `external_load` of the airframe.
+        diagram: the whole; without lift with the optional input `external_load` of
+            the airframe.
         plant: the gears' bodies.
         airframe, attachment, wheel_kinematics, gear_forces: one each.
         tires: by wheel.
         shock_absorbers: by gear.
+        brakes: by wheel, of gears that have them.
+        pitch_dampers: by gear, of bogies.
         bodies: bodies and joints, by gear.
+        lift: None where lift equals weight and neither acts.
         energy_budget: None where not asked for.
-        loggers: by "<system>.<port>", one sample per integration step.
+        loggers: by "<system>.<port>", one sample per integration step; stroke and rate
+            of a gear as "strut_<gear>.strut".
         body, gears, runway: what it was made from.
     """
 
@@ -69,7 +84,10 @@ class LandingDiagram:
     gear_forces: GearForces = field(repr=False)
     tires: dict[str, Any] = field(repr=False)
     shock_absorbers: dict[str, Any] = field(repr=False)
+    brakes: dict[str, Any] = field(repr=False)
+    pitch_dampers: dict[str, Any] = field(repr=False)
     bodies: dict[str, GearBodies] = field(repr=False)
+    lift: DistributedLoad | None = field(repr=False)
     energy_budget: EnergyBudget | None = field(repr=False)
     loggers: dict[str, VectorLogSink] = field(repr=False)
     body: ModalBody = field(repr=False)
@@ -91,6 +109,7 @@ def MakeLandingDiagram(
     monitor_nodes: Sequence[int] = (),
     attachment: Literal["rigid", "bushing"] = "rigid",
     gravity: float = 0.0,
+    lift: Lift | None = None,
     energy_budget: bool = True,
     log: bool = True,
 ) -> LandingDiagram:
@@ -98,17 +117,19 @@ def MakeLandingDiagram(
 
     Args:
         body: the airframe, without its gears.
-        gears: one or more; each is held at its attachment node.
+        gears: one or more; each is held at its attachment nodes.
         runway: default flat and dry.
         monitor_nodes: grids whose accelerations are wanted.
         attachment: `rigid`, or `bushing` for elastic fittings.
         gravity: m/s², for airframe and gears; 0 stands for lift equal to weight.
+        lift: carried by the airframe, beside gravity.
         energy_budget: adds the audit, at a few per cent of the run time.
         log: adds loggers of the signals that reports need.
 
     Raises:
         ValueError: no gear, a name used twice, an attachment or monitoring node that
-            the body does not have, or a parameter out of range.
+            the body does not have, a gear that is held too little or, for a rigid
+            airframe, too much, lift without gravity, or a parameter out of range.
     """
     names = [gear.name for gear in gears]
     if not names or len(set(names)) < len(names):
@@ -116,34 +137,39 @@ def MakeLandingDiagram(
     runway = Runway() if runway is None else runway
     builder = DiagramBuilder()
     plant = builder.AddNamedSystem("plant", MultibodyPlant(0.0))
-    nodes = [gear.attachment_node for gear in gears]
+    places = attachment_places(body, gears)
     bodies = {
-        gear.name: AddLandingGear(plant, gear, p_BA)
-        for gear, p_BA in zip(gears, body.p_BN[body.rows(nodes)])
+        gear.name: AddLandingGear(plant, gear, places[gear.name]) for gear in gears
     }
     plant.mutable_gravity_field().set_gravity_vector([0.0, 0.0, -gravity])
     plant.Finalize()
 
+    nodes = [node for gear in gears for node in gear.attachments.values()]
     airframe = builder.AddNamedSystem(
         "airframe", FlexibleAirframe(body, nodes, monitor_nodes, gravity)
     )
-    fittings = [parts.fitting for parts in bodies.values()]
+    points = attachment_points(gears, bodies, places)
     kind = {"rigid": RigidAttachment, "bushing": BushingAttachment}[attachment]
-    held = builder.AddNamedSystem("attachment", kind(plant, fittings))
+    held = builder.AddNamedSystem("attachment", kind(plant, points))
+    if attachment == "rigid":
+        require_shared_loads(body, gears, points, nodes)
     parts = AddGearSystems(builder, plant, gears, bodies, runway)
     _connect_attachment(builder, plant, airframe, held, parts.gear_forces)
-    builder.ExportInput(airframe.GetInputPort("external_load"), "external_load")
+    carrying = None
+    if lift is None:
+        builder.ExportInput(airframe.GetInputPort("external_load"), "external_load")
+    elif not gravity > 0:
+        raise ValueError(f"landing diagram: lift with gravity {gravity} m/s²")
+    else:
+        carrying = AddLift(builder, airframe, body, gears, lift, gravity)
     systems = {"plant": plant, "airframe": airframe, "attachment": held}
-    systems |= {f"tire_{name}": tire for name, tire in parts.tires.items()}
-    systems |= {
-        f"shock_absorber_{name}": a for name, a in parts.shock_absorbers.items()
-    }
+    systems |= parts.by_name
     budget = None
     if energy_budget:
         others = [system for name, system in systems.items() if name != "plant"]
         budget = AddEnergyBudget(builder, plant, others)
         systems["energy_budget"] = budget
-    loggers = _add_loggers(builder, systems) if log else {}
+    loggers = _add_loggers(builder, systems, parts) if log else {}
     diagram = builder.Build()
     diagram.set_name("landing")
     return LandingDiagram(
@@ -155,7 +181,10 @@ def MakeLandingDiagram(
         gear_forces=parts.gear_forces,
         tires=parts.tires,
         shock_absorbers=parts.shock_absorbers,
+        brakes=parts.brakes,
+        pitch_dampers=parts.pitch_dampers,
         bodies=bodies,
+        lift=carrying,
         energy_budget=budget,
         loggers=loggers,
         body=body,
@@ -187,15 +216,19 @@ def _connect_attachment(
 
 
 def _add_loggers(
-    builder: DiagramBuilder, systems: dict[str, LeafSystem]
+    builder: DiagramBuilder, systems: dict[str, LeafSystem], parts: GearSystems
 ) -> dict[str, VectorLogSink]:
-    loggers = {}
+    ports = {}
     for name, system in systems.items():
         kind = next(kind for kind in _LOGGED if name.startswith(kind))
         for port in _LOGGED[kind]:
-            logger = LogVectorOutput(system.GetOutputPort(port), builder)
-            logger.set_name(f"log {name} {port}")
-            loggers[f"{name}.{port}"] = logger
+            ports[f"{name}.{port}"] = system.GetOutputPort(port)
+    for gear in parts.shock_absorbers:
+        port = parts.wheel_kinematics.GetOutputPort(f"strut_{gear}")
+        ports[f"strut_{gear}.strut"] = port
+    loggers = {name: LogVectorOutput(port, builder) for name, port in ports.items()}
+    for name, logger in loggers.items():
+        logger.set_name("log " + name.replace(".", " "))
     return loggers
 
 

@@ -1,220 +1,57 @@
 """What has to be known of a landing gear: validated data, as written in a case file.
 
 All positions and inertias are in the airframe frame B (x aft, y to starboard, z up),
-gear extended, aircraft undeformed. SI units except angles in degrees. A gear is one
-rigid fitting held by the airframe, a piston with its axle that slides in it along the
-strut axis, and wheels that spin on the axle.
+gear extended, aircraft undeformed. SI units except angles in degrees. Three kinds:
+
+    telescopic  a piston with its axle slides in the fitting along the strut axis
+    levered     an arm with the axle pivots on the fitting; the shock absorber spans
+                a point of the fitting and a point of the arm
+    bogie       a beam with several axles pivots at the lower end of a piston
+
+A gear is held by the airframe at one node or at several, see `further_attachments`.
 """
 
 from itertools import pairwise
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Discriminator, Field, Tag, TypeAdapter, model_validator
 
-Vector3 = tuple[float, float, float]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
-Table = Annotated[list[tuple[float, float]], Field(min_length=2)]
+from drake_landing.gear_parts import (
+    Brake,
+    Data,
+    FurtherAttachment,
+    PitchDamper,
+    ShockAbsorber,
+    Tyre,
+    Wheel,
+)
+from drake_landing.gear_parts import RigidPart as RigidPart
+from drake_landing.gear_parts import Vector3 as Vector3
 
-
-class _Data(BaseModel):
-    """Frozen; unknown keys are errors."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class RigidPart(_Data):
-    """Mass properties of one rigid part."""
-
-    mass: Positive = Field(description="mass, kg, > 0")
-    cg: Vector3 = Field(description="centre of gravity in B, gear extended, m")
-    inertia: tuple[Positive, Positive, Positive] = Field(
-        description="principal moments of inertia about the centre of gravity along "
-        "the axes of B, kg m², > 0; none may exceed the sum of the others"
-    )
-
-    @model_validator(mode="after")
-    def _physical(self) -> Self:
-        x, y, z = self.inertia
-        if 2 * max(x, y, z) > x + y + z:
-            raise ValueError(
-                f"inertia ({x}, {y}, {z}) kg m²: one moment exceeds the sum of the "
-                "other two, which no body has"
-            )
-        return self
+_PIVOT_AXES = "the pivot's axis is the lateral one"
 
 
-class Wheel(_Data):
-    """One wheel with tyre and rotating brake parts; all wheels of a gear are equal."""
+class LandingGear(Data):
+    """What all kinds of landing gear have in common."""
 
-    mass: Positive = Field(description="mass of one wheel, kg, > 0")
-    spin_inertia: Positive = Field(description="about the axle, kg m², > 0")
-    transverse_inertia: Positive | None = Field(
-        default=None,
-        description="about any axis across the axle through the wheel centre, kg m², "
-        "> half the spin inertia; default 0.6 of the spin inertia",
-    )
-
-    @property
-    def transverse(self) -> float:
-        """Moment of inertia across the axle, kg m²."""
-        return self.transverse_inertia or 0.6 * self.spin_inertia
-
-    @model_validator(mode="after")
-    def _physical(self) -> Self:
-        if 2 * self.transverse < self.spin_inertia:
-            raise ValueError(
-                f"transverse_inertia {self.transverse} kg m² is below half the spin "
-                f"inertia {self.spin_inertia} kg m², which no body has"
-            )
-        return self
-
-
-class Tyre(_Data):
-    """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'."""
-
-    radius: Positive = Field(description="unloaded radius, m, > 0")
-    stiffness: Positive | None = Field(
-        default=None, description="vertical stiffness, N/m, > 0; or give load_table"
-    )
-    load_table: Table | None = Field(
-        default=None,
-        description="measured deflection (m, ascending) against load (N), from [0, 0]; "
-        "instead of stiffness",
-    )
-    damping: NotNegative = Field(default=0.0, description="vertical damping, N s/m")
-    nominal_force: NotNegative = Field(
-        default=0.0, description="F_zN, subtracted from the vertical force, N"
-    )
-    bottoming_deflection: Positive | None = Field(
-        default=None, description="deflection at which the rim touches, m; default none"
-    )
-    bottoming_stiffness: Positive = Field(
-        default=2e7, description="of the rim, added beyond bottoming_deflection, N/m"
-    )
-    friction_peak: NotNegative = Field(
-        default=0.8, le=2.0, description="D of mu = D sin(C atan(B slip)), 0 to 2"
-    )
-    friction_shape: float = Field(
-        default=1.6, ge=1.0, le=2.0, description="C of the friction law, 1 to 2"
-    )
-    friction_stiffness: Positive = Field(
-        default=12.5, description="B of the friction law, > 0"
-    )
-    friction_table: Table | None = Field(
-        default=None,
-        description="slip (ascending) against friction coefficient, from [0, 0]; "
-        "instead of the friction law",
-    )
-    lateral_friction_ratio: Positive = Field(
-        default=1.0, description="friction across over friction along the wheel, > 0"
-    )
-    relaxation_length: NotNegative = Field(
-        default=0.0, description="m; 0: the force follows the slip without delay"
-    )
-
-    @model_validator(mode="after")
-    def _one_law(self) -> Self:
-        if (self.stiffness is None) == (self.load_table is None):
-            raise ValueError("give either stiffness or load_table")
-        return self
-
-
-class GasChamber(_Data):
-    """A second gas chamber behind a floating piston."""
-
-    precharge_force: Positive = Field(
-        description="strut force at which the floating piston starts to move, N"
-    )
-    gas_length: Positive = Field(description="volume over main piston area, m")
-    gas_exponent: float = Field(
-        default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
-    )
-
-
-class ShockAbsorber(_Data):
-    """Gas spring, orifice damper, friction and end stops along the strut.
-
-    The gas force is precharge_force·(1 - stroke/gas_length)^(-gas_exponent).
-    """
-
-    stroke: Positive = Field(description="mechanical stroke to the stop, m, > 0")
-    gas_length: Positive = Field(description="length of the gas column, m, > stroke")
-    precharge_force: Positive = Field(
-        description="gas force fully extended, N, > 0; the extension stop carries it"
-    )
-    gas_exponent: float = Field(
-        default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
-    )
-    second_chamber: GasChamber | None = None
-    piston_area: Positive | None = Field(
-        default=None, description="m²; where given, the gas pressure is reported"
-    )
-    compression_damping: NotNegative = Field(
-        description="force over squared rate when closing, N s²/m²"
-    )
-    rebound_damping: NotNegative = Field(
-        description="force over squared rate when opening, N s²/m²"
-    )
-    compression_metering: Table | None = Field(
-        default=None, description="stroke (m) against factor on compression_damping"
-    )
-    rebound_metering: Table | None = Field(
-        default=None, description="stroke (m) against factor on rebound_damping"
-    )
-    compression_stop_stiffness: Positive = Field(
-        default=3e7, description="beyond the stroke, N/m, > 0"
-    )
-    extension_stop_stiffness: Positive = Field(default=5e7, description="N/m, > 0")
-    stop_damping: float = Field(
-        default=0.5,
-        ge=0,
-        le=10,
-        description="of the stops: damping over elastic force and rate, s/m",
-    )
-    seal_friction: float = Field(
-        default=0.0, ge=0, le=1, description="friction force over gas force"
-    )
-    bearing_friction: float = Field(
-        default=0.0, ge=0, le=1, description="friction force over bearing reactions"
-    )
-    bearing_distance: Positive = Field(
-        default=0.5, description="between the bearings, extended, m, > 0"
-    )
-    axle_arm: NotNegative = Field(
-        default=1.0, description="axle below the lower bearing, extended, m"
-    )
-
-    @model_validator(mode="after")
-    def _gas_remains(self) -> Self:
-        second = self.second_chamber
-        length = self.gas_length + (second.gas_length if second else 0.0)
-        if length <= self.stroke:
-            raise ValueError(
-                f"gas_length {length} m must exceed the stroke {self.stroke} m: at "
-                "full stroke some gas is left"
-            )
-        return self
-
-
-class LandingGear(_Data):
-    """One landing gear."""
+    positions: ClassVar[tuple[str, ...]] = ()
+    """Names of the fields that are positions in B."""
 
     name: str = Field(
         pattern=r"^[a-z][a-z0-9_]*$",
         description="unique; lower case, digits and underscores, e.g. main_left",
     )
-    kind: Literal["telescopic"] = "telescopic"
+    kind: str
     attachment_node: int = Field(
         gt=0, description="grid of the airframe model that holds the fitting"
     )
-    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
-    rake_deg: float = Field(
-        default=0.0,
-        gt=-45,
-        lt=45,
-        description="angle of the strut axis from the up axis, about the lateral axis; "
-        "positive: the lower end lies further forward",
+    attachment: Literal["rigid", "ball"] = Field(
+        default="rigid",
+        description="what attachment_node holds of the fitting: rigid, all of it; "
+        "ball, its translations only",
+    )
+    further_attachments: tuple[FurtherAttachment, ...] = Field(
+        default=(), description="other grids that hold the fitting: stays, bearings"
     )
     wheel_offsets: tuple[float, ...] = Field(
         min_length=1,
@@ -222,9 +59,9 @@ class LandingGear(_Data):
         "ascending, e.g. [-0.465, 0.465] for a twin",
     )
     fitting: RigidPart = Field(description="sprung part: main fitting, stays, doors")
-    piston: RigidPart = Field(description="piston, axle, brake stators; no wheels")
     wheel: Wheel
     tyre: Tyre
+    brake: Brake | None = Field(default=None, description="of every wheel; or none")
     shock_absorber: ShockAbsorber
 
     @model_validator(mode="after")
@@ -234,16 +71,210 @@ class LandingGear(_Data):
             raise ValueError(f"wheel_offsets {offsets} m must be strictly ascending")
         return self
 
+    @model_validator(mode="after")
+    def _held(self) -> Self:
+        further = self.further_attachments
+        names = [hold.name for hold in further]
+        nodes = [self.attachment_node, *(hold.node for hold in further)]
+        for what, values in (("name", names), ("node", nodes)):
+            twice = sorted({v for v in values if values.count(v) > 1}, key=str)
+            if twice:
+                raise ValueError(f"attachments: {what} {twice[0]} is used twice")
+        count = sum(len(hold.directions) for hold in further)
+        if self.attachment == "ball" and count < 3:
+            raise ValueError(
+                f"attachment: a ball holds 3 directions, further_attachments {count}; "
+                "together they must hold 6 or more"
+            )
+        return self
+
+    @property
+    def axles(self) -> tuple[Vector3, ...]:
+        """Middle of each axle in B, gear extended, m."""
+        raise TypeError("a landing gear is one of its kinds")
+
+    @property
+    def moving_parts(self) -> dict[str, RigidPart]:
+        """Rigid parts between fitting and wheels, by name."""
+        raise TypeError("a landing gear is one of its kinds")
+
+    @property
+    def axle_names(self) -> tuple[str, ...]:
+        """What is put between the names of gear and wheel: nothing for one axle."""
+        count = len(self.axles)
+        numbered = tuple(f"_axle{i}" for i in range(1, count + 1))
+        return {1: ("",), 2: ("_front", "_rear")}.get(count, numbered)
+
     @property
     def wheel_names(self) -> tuple[str, ...]:
-        """`<gear>`, or `<gear>_left`, `<gear>_right` for a twin, or numbered."""
+        """`<gear>`, `<gear>_left`, `<gear>_right` for a twin, or numbered.
+
+        With two axles `<gear>_front_left` and so on, axle after axle.
+        """
         sides = {1: ("",), 2: ("_left", "_right")}
         count = len(self.wheel_offsets)
         numbered = tuple(f"_{i}" for i in range(1, count + 1))
-        return tuple(self.name + side for side in sides.get(count, numbered))
+        across = sides.get(count, numbered)
+        return tuple(self.name + a + side for a in self.axle_names for side in across)
+
+    @property
+    def attachments(self) -> dict[str, int]:
+        """Name of each attachment -> grid; the first has the name of the gear."""
+        further = {f"{self.name}_{h.name}": h.node for h in self.further_attachments}
+        return {self.name: self.attachment_node, **further}
 
     @property
     def mass(self) -> float:
         """Of the whole gear, kg."""
-        wheels = len(self.wheel_offsets) * self.wheel.mass
-        return self.fitting.mass + self.piston.mass + wheels
+        parts = sum(part.mass for part in self.moving_parts.values())
+        return self.fitting.mass + parts + len(self.wheel_names) * self.wheel.mass
+
+
+class TelescopicGear(LandingGear):
+    """A piston with one axle that slides in the fitting."""
+
+    positions: ClassVar[tuple[str, ...]] = ("axle",)
+
+    kind: Literal["telescopic"] = "telescopic"
+    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
+    rake_deg: float = Field(
+        default=0.0,
+        gt=-45,
+        lt=45,
+        description="angle of the strut axis from the up axis, about the lateral axis; "
+        "positive: the lower end lies further forward",
+    )
+    steering_deg: float = Field(
+        default=0.0,
+        ge=-80,
+        le=80,
+        description="fixed angle of the axle about the strut axis, to starboard > 0",
+    )
+    piston: RigidPart = Field(description="piston, axle, brake stators; no wheels")
+
+    @property
+    def axles(self) -> tuple[Vector3, ...]:
+        """The one axle."""
+        return (self.axle,)
+
+    @property
+    def moving_parts(self) -> dict[str, RigidPart]:
+        """The piston."""
+        return {"piston": self.piston}
+
+
+class LeveredGear(LandingGear):
+    """An arm with one axle that pivots on the fitting about the lateral axis."""
+
+    positions: ClassVar[tuple[str, ...]] = (
+        "axle",
+        "pivot",
+        "absorber_upper",
+        "absorber_lower",
+    )
+
+    kind: Literal["levered"] = "levered"
+    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
+    pivot: Vector3 = Field(
+        description=f"of the arm on the fitting, in B, m; {_PIVOT_AXES}"
+    )
+    absorber_upper: Vector3 = Field(
+        description="shock absorber's end on the fitting, in B, m"
+    )
+    absorber_lower: Vector3 = Field(
+        description="shock absorber's end on the arm, in B, gear extended, m"
+    )
+    arm: RigidPart = Field(description="arm, axle, brake stators; no wheels")
+
+    @model_validator(mode="after")
+    def _pinned(self) -> Self:
+        if self.shock_absorber.bearing_friction:
+            raise ValueError(
+                "shock_absorber.bearing_friction: a pin-ended shock absorber carries "
+                "no side load, expected 0; seal_friction is there"
+            )
+        return self
+
+    @property
+    def axles(self) -> tuple[Vector3, ...]:
+        """The one axle."""
+        return (self.axle,)
+
+    @property
+    def moving_parts(self) -> dict[str, RigidPart]:
+        """The arm."""
+        return {"arm": self.arm}
+
+
+class BogieGear(LandingGear):
+    """A beam with several axles that pivots at the lower end of a piston."""
+
+    positions: ClassVar[tuple[str, ...]] = ("pivot", "axle_positions")
+
+    kind: Literal["bogie"] = "bogie"
+    pivot: Vector3 = Field(
+        description=f"of the beam on the piston, in B, gear extended, m; {_PIVOT_AXES}"
+    )
+    axle_positions: tuple[Vector3, ...] = Field(
+        min_length=1,
+        description="middle of each axle in B, gear extended and beam level, m, front "
+        "axle first",
+    )
+    rake_deg: float = Field(
+        default=0.0,
+        gt=-45,
+        lt=45,
+        description="angle of the strut axis from the up axis, about the lateral axis; "
+        "positive: the lower end lies further forward",
+    )
+    piston: RigidPart = Field(description="piston without the beam")
+    beam: RigidPart = Field(
+        description="bogie beam, level, with axles and brake stators; no wheels"
+    )
+    pitch_damper: PitchDamper = Field(
+        default=PitchDamper(), description="between piston and beam"
+    )
+
+    @property
+    def axles(self) -> tuple[Vector3, ...]:
+        """Front to rear."""
+        return self.axle_positions
+
+    @property
+    def moving_parts(self) -> dict[str, RigidPart]:
+        """Piston and beam."""
+        return {"piston": self.piston, "beam": self.beam}
+
+
+def _tag(value: Any) -> str:
+    data = value if isinstance(value, dict) else vars(value) if _is_gear(value) else {}
+    return f"({data.get('kind', 'telescopic')})"
+
+
+def _is_gear(value: Any) -> bool:
+    return isinstance(value, LandingGear)
+
+
+# One of the kinds by its field `kind`, telescopic by default; tags are in parentheses,
+# see `cases_io`.
+AnyGear = Annotated[
+    Annotated[TelescopicGear, Tag("(telescopic)")]
+    | Annotated[LeveredGear, Tag("(levered)")]
+    | Annotated[BogieGear, Tag("(bogie)")],
+    Discriminator(
+        _tag,
+        custom_error_type="gear_kind",
+        custom_error_message="expected telescopic, levered or bogie for kind",
+    ),
+]
+
+_ANY_GEAR: TypeAdapter[LandingGear] = TypeAdapter(AnyGear)
+
+
+def read_gear(data: Any) -> LandingGear:
+    """A landing gear of the kind that the data name.
+
+    Raises:
+        pydantic.ValidationError: the data are not a landing gear; a ValueError.
+    """
+    return _ANY_GEAR.validate_python(data)

@@ -1,20 +1,29 @@
 """The rigid bodies and joints of landing gears, added to a MultibodyPlant.
 
-A fitting (free, or joined to the world by the caller), a piston on a prismatic strut,
-and wheels on revolute joints about the axle. All body frames are parallel to the
-airframe frame B in the extended gear: the fitting's origin is the attachment point, the
-piston's the middle of the axle, a wheel's its centre.
+A fitting (free, or joined to the world by the caller), what moves against it by the
+kind of gear, and wheels on revolute joints about their axle:
+
+    telescopic  fitting =prismatic= piston =revolute= wheels
+    levered     fitting =revolute= arm =revolute= wheels
+    bogie       fitting =prismatic= piston =revolute= beam =revolute= wheels
+
+All body frames are parallel to the airframe frame B in the extended gear, but those of
+steered wheels: the fitting's origin is the attachment point, that of an arm or beam its
+pivot, a piston's the middle of the axle or the beam's pivot, a wheel's its centre.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from functools import singledispatch
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
-from pydrake.math import RigidTransform
+from pydrake.math import RigidTransform, RotationMatrix
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import (
     FixedOffsetFrame,
+    Frame,
     PrismaticJoint,
     RevoluteJoint,
     RigidBody,
@@ -23,9 +32,18 @@ from pydrake.multibody.tree import (
     UnitInertia,
 )
 
-from drake_landing.gear import LandingGear, RigidPart
+from drake_landing.gear import (
+    BogieGear,
+    LandingGear,
+    LeveredGear,
+    RigidPart,
+    TelescopicGear,
+)
+from systems.lever_strut import LeverStrut
 
 Float64 = npt.NDArray[np.float64]
+
+_LATERAL = [0.0, 1.0, 0.0]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,23 +52,63 @@ class GearBodies:
 
     Attributes:
         fitting: `<gear>_fitting`.
-        piston: `<gear>_piston`, with the axle.
+        parts: what moves against it, by the names of `LandingGear.moving_parts`:
+            `<gear>_piston`, `<gear>_arm`, `<gear>_beam`; the last bears the wheels.
         wheels: wheel name to body `<wheel>_wheel`.
-        strut: `<gear>_strut`; its translation is the stroke.
-        spins: wheel name to joint `<wheel>_spin`, about the y axis.
+        strut: `<gear>_strut`, a joint whose translation is the stroke, or the shock
+            absorber over the joint `<gear>_pivot` of an arm.
+        spins: wheel name to joint `<wheel>_spin`, about the y axis of the wheel.
+        pitch: joint `<gear>_pitch` of a bogie beam, else None.
     """
 
     fitting: RigidBody
-    piston: RigidBody
+    parts: dict[str, RigidBody]
     wheels: dict[str, RigidBody]
-    strut: PrismaticJoint
+    strut: PrismaticJoint | LeverStrut
     spins: dict[str, RevoluteJoint]
+    pitch: RevoluteJoint | None = None
+
+    @property
+    def joints(self) -> dict[str, PrismaticJoint | RevoluteJoint]:
+        """Joints that settle under load, not the spins: `strut` and `pitch`."""
+        strut = self.strut
+        joint = strut.joint if isinstance(strut, LeverStrut) else strut
+        pitch = {} if self.pitch is None else {"pitch": self.pitch}
+        return {"strut": joint, **pitch}
+
+
+@dataclass(frozen=True)
+class _Moving:
+    """The bodies between fitting and wheels; `p_BO` is the origin of the last."""
+
+    parts: dict[str, RigidBody]
+    strut: PrismaticJoint | LeverStrut
+    p_BO: Float64
+    R_BO: RotationMatrix = field(default_factory=RotationMatrix)
+    pitch: RevoluteJoint | None = None
 
 
 def strut_axis(gear: LandingGear) -> Float64:
-    """(3,) direction in B along which the piston moves in compression: upward."""
-    rake = math.radians(gear.rake_deg)
+    """(3,) direction in B along which the piston moves in compression: upward.
+
+    For a levered gear the direction of its extended shock absorber.
+    """
+    if isinstance(gear, LeveredGear):
+        span = np.subtract(gear.absorber_upper, gear.absorber_lower)
+        return span / np.sqrt(span @ span)
+    rake = math.radians(gear.rake_deg) if hasattr(gear, "rake_deg") else 0.0
     return np.array([math.sin(rake), 0.0, math.cos(rake)])
+
+
+def wheel_centres(gear: LandingGear) -> dict[str, Float64]:
+    """Wheel name -> (3,) centre in B (x aft, y starboard), gear extended, m."""
+    turn = _steering(gear).multiply(np.array(_LATERAL))
+    places = [
+        np.array(axle) + offset * turn
+        for axle in gear.axles
+        for offset in gear.wheel_offsets
+    ]
+    return dict(zip(gear.wheel_names, places))
 
 
 def AddLandingGear(
@@ -60,44 +118,140 @@ def AddLandingGear(
 
     Args:
         plant: the plant.
-        gear: the data of the gear.
+        gear: the data of the gear, B being x aft, y to starboard, z up.
         p_BA: (3,) attachment point, origin of the fitting, in B, m.
 
     Returns:
         Bodies and joints. The fitting is left without a joint: finalising the plant
         frees it, unless the caller joins it to something first.
+
+    Raises:
+        ValueError: the shock absorber of a levered gear cannot do its stroke, or
+            shortens as the wheels go down.
     """
     attachment = np.asarray(p_BA, dtype=float)
-    axle = np.array(gear.axle)
     fitting = plant.AddRigidBody(
         f"{gear.name}_fitting", _inertia(gear.fitting, attachment)
     )
-    piston = plant.AddRigidBody(f"{gear.name}_piston", _inertia(gear.piston, axle))
+    moving = _add_moving(gear, plant, fitting, attachment)
+    carrier = list(moving.parts.values())[-1]
+    wheels, spins = {}, {}
+    for name, centre in wheel_centres(gear).items():
+        wheels[name] = plant.AddRigidBody(f"{name}_wheel", _wheel_inertia(gear))
+        X_OW = RigidTransform(moving.R_BO, centre - moving.p_BO)
+        axle = FixedOffsetFrame(f"{name}_axle", carrier.body_frame(), X_OW)
+        spins[name] = plant.AddJoint(
+            RevoluteJoint(
+                f"{name}_spin",
+                plant.AddFrame(axle),
+                wheels[name].body_frame(),
+                _LATERAL,
+            )
+        )
+    return GearBodies(
+        fitting=fitting,
+        parts=moving.parts,
+        wheels=wheels,
+        strut=moving.strut,
+        spins=spins,
+        pitch=moving.pitch,
+    )
+
+
+@singledispatch
+def _add_moving(
+    gear: LandingGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    raise TypeError(f"landing gear {gear.name}: unknown kind {type(gear).__name__}")
+
+
+@_add_moving.register
+def _(
+    gear: TelescopicGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    axle = np.array(gear.axle)
+    piston, strut = _add_piston(plant, gear, gear.piston, axle, fitting, p_BA)
+    return _Moving({"piston": piston}, strut, axle, _steering(gear))
+
+
+@_add_moving.register
+def _(
+    gear: LeveredGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    pivot = np.array(gear.pivot)
+    arm = plant.AddRigidBody(f"{gear.name}_arm", _inertia(gear.arm, pivot))
+    joint = plant.AddJoint(
+        RevoluteJoint(
+            f"{gear.name}_pivot",
+            _offset(plant, f"{gear.name}_hinge", fitting, pivot - p_BA),
+            arm.body_frame(),
+            _LATERAL,
+        )
+    )
+    ends = np.array([gear.absorber_upper, gear.absorber_lower]) - pivot
+    try:
+        strut = LeverStrut.over(joint, *ends)
+        strut.geometry.require_stroke(gear.shock_absorber.stroke)
+    except ValueError as error:
+        raise ValueError(f"landing gear {gear.name}: {error}") from None
+    # Turning by dθ about y lifts the axle by -(x_axle - x_pivot) dθ.
+    if -(gear.axle[0] - pivot[0]) * strut.geometry.ratio(0.0) <= 0.0:
+        raise ValueError(
+            f"landing gear {gear.name}: the shock absorber gets longer as the wheel "
+            "goes up; expected absorber_upper and absorber_lower such that it shortens"
+        )
+    return _Moving({"arm": arm}, strut, pivot)
+
+
+@_add_moving.register
+def _(
+    gear: BogieGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    pivot = np.array(gear.pivot)
+    piston, strut = _add_piston(plant, gear, gear.piston, pivot, fitting, p_BA)
+    beam = plant.AddRigidBody(f"{gear.name}_beam", _inertia(gear.beam, pivot))
+    pitch = plant.AddJoint(
+        RevoluteJoint(
+            f"{gear.name}_pitch", piston.body_frame(), beam.body_frame(), _LATERAL
+        )
+    )
+    pitch.set_default_angle(math.radians(gear.pitch_damper.trim_deg))
+    return _Moving({"piston": piston, "beam": beam}, strut, pivot, pitch=pitch)
+
+
+def _add_piston(
+    plant: MultibodyPlant,
+    gear: LandingGear,
+    part: RigidPart,
+    p_BP: Float64,
+    fitting: RigidBody,
+    p_BA: Float64,
+) -> tuple[RigidBody, PrismaticJoint]:
+    piston = plant.AddRigidBody(f"{gear.name}_piston", _inertia(part, p_BP))
     strut = plant.AddJoint(
         PrismaticJoint(
             f"{gear.name}_strut",
-            _offset(plant, f"{gear.name}_cylinder", fitting, axle - attachment),
+            _offset(plant, f"{gear.name}_cylinder", fitting, p_BP - p_BA),
             piston.body_frame(),
             strut_axis(gear),
         )
     )
-    wheels, spins = {}, {}
-    for name, offset in zip(gear.wheel_names, gear.wheel_offsets):
-        wheels[name] = plant.AddRigidBody(f"{name}_wheel", _wheel_inertia(gear))
-        spins[name] = plant.AddJoint(
-            RevoluteJoint(
-                f"{name}_spin",
-                _offset(plant, f"{name}_axle", piston, np.array([0.0, offset, 0.0])),
-                wheels[name].body_frame(),
-                [0.0, 1.0, 0.0],
-            )
-        )
-    return GearBodies(
-        fitting=fitting, piston=piston, wheels=wheels, strut=strut, spins=spins
-    )
+    return piston, cast(PrismaticJoint, strut)
 
 
-def _offset(plant: MultibodyPlant, name: str, body: RigidBody, p: Float64):
+def _steering(gear: LandingGear) -> RotationMatrix:
+    """Of the wheels about the strut axis; nose to starboard is clockwise from above."""
+    angle = math.radians(gear.steering_deg) if isinstance(gear, TelescopicGear) else 0.0
+    if angle == 0.0:
+        return RotationMatrix()
+    axis = strut_axis(gear)
+    x, y, z = axis
+    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    s, c = math.sin(-angle), math.cos(angle)
+    return RotationMatrix(np.eye(3) + s * K + (1.0 - c) * K @ K)
+
+
+def _offset(plant: MultibodyPlant, name: str, body: RigidBody, p: Float64) -> Frame:
     return plant.AddFrame(FixedOffsetFrame(name, body.body_frame(), RigidTransform(p)))
 
 

@@ -1,6 +1,10 @@
 """Gear data as the parameters of the systems."""
 
-from drake_landing.gear import ShockAbsorber, Tyre
+import math
+
+from drake_landing.gear_parts import Brake, PitchDamper, ShockAbsorber, Tyre
+from systems.bogie_pitch import BogiePitchParameters
+from systems.brake import AntiSkid, BrakeParameters
 from systems.gas_spring import GasSpring, SecondChamber
 from systems.shock_absorber import ShockAbsorberParameters
 from systems.slip import SineSlip, TabulatedSlip
@@ -64,6 +68,35 @@ def tire_parameters(data: Tyre) -> TireParameters:
         slip=slip,
         lateral_friction_ratio=data.lateral_friction_ratio,
         relaxation_length=data.relaxation_length,
+    )
+
+
+def brake_parameters(data: Brake) -> BrakeParameters:
+    """Parameters of `systems.brake`; ValueError where they do not fit."""
+    torque = _table(data.torque_table) if data.torque is None else data.torque
+    assert torque is not None  # the data's own validation
+    skid = data.anti_skid
+    return BrakeParameters(
+        torque=torque,
+        anti_skid=skid
+        and AntiSkid(
+            onset=skid.onset,
+            release=skid.release,
+            protection_load=skid.protection_load,
+        ),
+    )
+
+
+def bogie_pitch_parameters(data: PitchDamper) -> BogiePitchParameters:
+    """Parameters of `systems.bogie_pitch`; ValueError where they do not fit."""
+    return BogiePitchParameters(
+        trim=math.radians(data.trim_deg),
+        stiffness=data.stiffness,
+        max_moment=data.max_moment,
+        damping=data.damping,
+        quadratic_damping=data.quadratic_damping,
+        stop=None if data.stop_deg is None else math.radians(data.stop_deg),
+        stop_stiffness=data.stop_stiffness,
     )
 
 

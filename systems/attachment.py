@@ -10,10 +10,15 @@ gears, since they move each other through the airframe:
 two terms (Baumgarte) take back the drift of the numerical integration; with a perfect
 integrator they are zero. Only inputs that do not depend on λ enter, so the diagram has
 no algebraic loop.
+
+A fitting may be held at several nodes, see `attachment_points`: then J and the nodes'
+quantities are multiplied by the rows of those conditions, and elastic rows join the
+known forces.
 """
 
 from abc import abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,6 +28,7 @@ from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlan
 from pydrake.multibody.tree import MultibodyForces, RigidBody
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
+from systems.attachment_points import AttachmentPoint, HoldPattern, Rows
 from systems.gear_forces import spatial_forces
 from systems.rotations import (
     log,
@@ -33,8 +39,24 @@ from systems.rotations import (
 Float64 = npt.NDArray[np.float64]
 
 
+@dataclass(frozen=True, slots=True)
+class Gap:
+    """Fittings relative to nodes.
+
+    Attributes:
+        points: (k, 2, 6) rotation and translation, and their rates, W.
+        gap, rate: (m,) along the rows of the conditions.
+        rows: the rows; None where they are the identity.
+    """
+
+    points: Float64
+    gap: Float64
+    rate: Float64
+    rows: Rows | None
+
+
 class Attachment(LeafSystem):
-    """Common ports of the ways to attach k gears; vectors node after node.
+    """Common ports of the ways to attach gears at k nodes; vectors node after node.
 
     | input port | size | unit | |
     |---|---|---|---|
@@ -57,29 +79,36 @@ class Attachment(LeafSystem):
 
     Args:
         plant: finalised; the fittings are free bodies on quaternion floating joints.
-        fittings: body of each gear whose frame is to coincide with its node.
+        points: of each node how it holds which fitting; a mere body is one whose frame
+            is to coincide with the node.
 
     Raises:
-        ValueError: a fitting is not a free body.
+        ValueError: a fitting is not a free body, or is left free to move.
     """
 
-    def __init__(self, plant: MultibodyPlant, fittings: Sequence[RigidBody]) -> None:
+    def __init__(
+        self, plant: MultibodyPlant, points: Sequence[RigidBody | AttachmentPoint]
+    ) -> None:
         super().__init__()
         self._plant = plant
+        self._pattern = pattern = HoldPattern([_point(point) for point in points])
+        self._k = k = len(points)
+        fittings = pattern.fittings
         self._bodies = tuple(body.index() for body in fittings)
-        self._k = k = len(fittings)
         for body in fittings:
             if not (body.is_floating_base_body() and body.has_quaternion_dofs()):
                 raise ValueError(
                     f"attachment: {body.name()} must be a free body of the plant, with "
                     "a quaternion floating joint"
                 )
-        nq = plant.num_positions()
-        self._quaternions = np.add.outer(_starts(fittings), [0, 1, 2, 3])
-        self._translations = np.add.outer(_starts(fittings), [4, 5, 6])
+        starts = np.array([body.floating_positions_start() for body in fittings])
+        starts = starts[pattern.fitting_of]
+        self._quaternions = np.add.outer(starts, [0, 1, 2, 3])
+        self._translations = np.add.outer(starts, [4, 5, 6])
         v = np.array([body.floating_velocities_start_in_v() for body in fittings])
-        self._rows = np.add.outer(v, np.arange(6)).ravel()
-        self._state_rows = nq + self._rows
+        rows = np.add.outer(v, np.arange(6))
+        self._rows = rows.ravel()
+        self._state_rows = plant.num_positions() + rows[pattern.fitting_of].ravel()
 
         vector: Any = self.DeclareVectorInputPort
         self._state = vector("plant_state", plant.num_multibody_states())
@@ -129,14 +158,14 @@ class Attachment(LeafSystem):
         """Whatever the wrench depends on beside the gap, made where necessary."""
 
     @abstractmethod
-    def _wrench_on_gear(self, context: Context, gap: Float64) -> Float64:
-        """(6 k,) wrench on the fittings, W, from the gap (k, 2, 6) and the sources."""
+    def _load(self, context: Context, gap: Gap) -> Float64:
+        """(m,) loads on the fittings along the rows of the gap."""
 
-    def _stored_energy(self, gap: Float64) -> float:
-        return 0.0
+    def _stored_energy(self, gap: Gap) -> float:
+        return 0.5 * float((self._pattern.stiffness * gap.gap**2).sum())
 
-    def _power_loss(self, gap: Float64) -> float:
-        return 0.0
+    def _power_loss(self, gap: Gap) -> float:
+        return float((self._pattern.damping * gap.rate**2).sum())
 
     def _calc_gap(self, context, value) -> None:
         state = self._state.Eval(context)
@@ -146,27 +175,44 @@ class Attachment(LeafSystem):
         gap = np.empty((self._k, 2, 6))
         gap[:, 0, :3] = log(R_WF @ R_WN.swapaxes(1, 2))
         gap[:, 0, 3:] = state[self._translations] - pose[:, 9:]
-        rate = state[self._state_rows] - self._velocity.Eval(context)
-        gap[:, 1] = rate.reshape(self._k, 6)
-        value.set_value(gap)
+        V_WF, V_WN = state[self._state_rows], self._velocity.Eval(context)
+        gap[:, 1] = (V_WF - V_WN).reshape(self._k, 6)
+        if self._pattern.plain:
+            value.set_value(Gap(gap, gap[:, 0].ravel(), gap[:, 1].ravel(), None))
+            return
+        rows = self._pattern.rows(
+            gap,
+            R_WF,
+            state[self._translations],
+            V_WF.reshape(self._k, 6),
+            pose[:, 9:],
+            V_WN.reshape(self._k, 6),
+        )
+        value.set_value(Gap(gap, rows.gap, rows.rate, rows))
 
     def _calc_wrench(self, context, value) -> None:
-        value.set_value(self._wrench_on_gear(context, self._gap.Eval(context)))
+        """Wrenches on the fittings (6 f,) and on the nodes (6 k,), W."""
+        gap = self._gap.Eval(context)
+        load = self._load(context, gap)
+        if gap.rows is None:
+            value.set_value((load, -load))
+        else:
+            value.set_value((load @ gap.rows.on_fitting, -(load @ gap.rows.on_node)))
 
     def _calc_on_airframe(self, context, output) -> None:
-        output.SetFromVector(-self._wrench.Eval(context))
+        output.SetFromVector(self._wrench.Eval(context)[1])
 
     def _calc_on_gear(self, context, output) -> None:
-        wrenches = self._wrench.Eval(context).reshape(self._k, 6)
+        wrenches = self._wrench.Eval(context)[0].reshape(-1, 6)
         output.set_value(spatial_forces(self._bodies, wrenches))
 
     def _calc_load_in_airframe_axes(self, context, output) -> None:
         R_WB = rotation_from_quaternion(self._airframe_pose.Eval(context)[:4])
-        in_B = -self._wrench.Eval(context).reshape(self._k, 2, 3) @ R_WB
+        in_B = self._wrench.Eval(context)[1].reshape(self._k, 2, 3) @ R_WB
         output.SetFromVector(in_B[:, ::-1].ravel())
 
     def _calc_gap_port(self, context, output) -> None:
-        output.SetFromVector(self._gap.Eval(context).ravel())
+        output.SetFromVector(self._gap.Eval(context).points.ravel())
 
     def _calc_energy(self, context, output) -> None:
         output.SetAtIndex(0, self._stored_energy(self._gap.Eval(context)))
@@ -178,24 +224,25 @@ class Attachment(LeafSystem):
 class RigidAttachment(Attachment):
     """Holds the fittings at the nodes without any play; ports of `Attachment`.
 
-    Energy and dissipated power are zero: an ideal constraint does no work.
+    Energy and dissipated power are those of elastic stays alone: an ideal constraint
+    does no work.
 
     Args:
-        plant, fittings: see `Attachment`.
+        plant, points: see `Attachment`.
         alpha, beta: Baumgarte's rates, 1/s; drift decays within a few 1/60 s.
     """
 
     def __init__(
         self,
         plant: MultibodyPlant,
-        fittings: Sequence[RigidBody],
+        points: Sequence[RigidBody | AttachmentPoint],
         alpha: float = 60.0,
         beta: float = 60.0,
     ) -> None:
         self._alpha, self._beta = alpha, beta
         self._world = plant.world_frame()
         self._zero = np.zeros(plant.num_velocities())
-        super().__init__(plant, fittings)
+        super().__init__(plant, points)
 
     def _sources(self) -> set:
         self._context: Any = self.DeclareCacheEntry(
@@ -232,22 +279,39 @@ class RigidAttachment(Attachment):
             )
         return -plant.CalcInverseDynamics(plant_context, self._zero, forces)
 
-    def _wrench_on_gear(self, context: Context, gap: Float64) -> Float64:
+    def _load(self, context: Context, gap: Gap) -> Float64:
         plant_context = self._context.Eval(context)
-        rows = self._rows
-        size = len(rows)
+        rows, held = self._rows, gap.rows
+        size = len(gap.gap)
         # The velocities of a fitting on its floating joint are its spatial velocity in
         # W: J picks rows, and no velocity-dependent acceleration arises.
         right = np.zeros((len(self._zero), size + 1))
-        right[rows, np.arange(size)] = 1.0
+        if held is None:
+            right[rows, np.arange(size)] = 1.0
+        else:
+            right[rows, :size] = held.on_fitting.T
         right[:, size] = self._free_force(context, plant_context)
         mass = self._plant.CalcMassMatrix(plant_context)
         response = np.linalg.solve(mass, right)[rows]
-        matrix = response[:, :size] + self._compliance.Eval(context).reshape(size, size)
-        stabilised = 2.0 * self._alpha * gap[:, 1] + self._beta**2 * gap[:, 0]
-        wanted = self._acceleration.Eval(context) - response[:, size]
-        return np.linalg.solve(matrix, wanted - stabilised.ravel())
+        k = 6 * self._k
+        compliance = self._compliance.Eval(context).reshape(k, k)
+        acceleration = self._acceleration.Eval(context)
+        stabilised = 2.0 * self._alpha * gap.rate + self._beta**2 * gap.gap
+        if held is not None:
+            response = held.on_fitting @ response
+            compliance = held.on_node @ compliance @ held.on_node.T
+            acceleration = held.on_node @ acceleration - held.bias
+        matrix = response[:, :size] + compliance
+        wanted = acceleration - response[:, size] - stabilised
+        elastic = self._pattern.stiffness > 0.0
+        if not elastic.any():
+            return np.linalg.solve(matrix, wanted)
+        load = -(self._pattern.stiffness * gap.gap + self._pattern.damping * gap.rate)
+        wanted = wanted - matrix[:, elastic] @ load[elastic]
+        rigid = ~elastic
+        load[rigid] = np.linalg.solve(matrix[np.ix_(rigid, rigid)], wanted[rigid])
+        return load
 
 
-def _starts(fittings: Sequence[RigidBody]) -> list[int]:
-    return [body.floating_positions_start() for body in fittings]
+def _point(point: RigidBody | AttachmentPoint) -> AttachmentPoint:
+    return AttachmentPoint(fitting=point) if isinstance(point, RigidBody) else point

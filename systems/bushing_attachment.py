@@ -12,7 +12,8 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import RigidBody
 from pydrake.systems.framework import Context
 
-from systems.attachment import Attachment
+from systems.attachment import Attachment, Gap
+from systems.attachment_points import AttachmentPoint
 
 Float64 = npt.NDArray[np.float64]
 
@@ -20,12 +21,13 @@ Float64 = npt.NDArray[np.float64]
 class BushingAttachment(Attachment):
     """Linear springs and dampers between fitting and node; ports of `Attachment`.
 
-    The wrench on the fitting is -(k g + d g'), with g the gap in W. The inputs of the
+    The load on the fitting is -(k g + d g') along each row of the hold, with g the gap;
+    a direction with a stiffness of its own keeps it. The inputs of the
     forces on the gears and of the nodes' accelerations are there but not used.
     Stiffness is isotropic, so that it needs no axes.
 
     Args:
-        plant, fittings: see `Attachment`.
+        plant, points: see `Attachment`.
         translational_stiffness: N/m.
         rotational_stiffness: N m/rad.
         translational_damping: N s/m.
@@ -38,7 +40,7 @@ class BushingAttachment(Attachment):
     def __init__(
         self,
         plant: MultibodyPlant,
-        fittings: Sequence[RigidBody],
+        points: Sequence[RigidBody | AttachmentPoint],
         *,
         translational_stiffness: float = 2e8,
         rotational_stiffness: float = 1e8,
@@ -57,18 +59,22 @@ class BushingAttachment(Attachment):
                 "bushing: damping (rotational N m s/rad, translational N s/m) is "
                 f"{damping}, expected >= 0"
             )
-        self._stiffness = np.repeat(stiffness, 3)
-        self._damping = np.repeat(damping, 3)
-        super().__init__(plant, fittings)
+        super().__init__(plant, points)
+        pattern = self._pattern
+        own = pattern.stiffness > 0.0
+        given = np.where(pattern.rotational, *stiffness)
+        self._stiffness = np.where(own, pattern.stiffness, given)
+        given = np.where(pattern.rotational, *damping)
+        self._damping = np.where(own, pattern.damping, given)
 
     def _sources(self) -> set:
         return set()
 
-    def _wrench_on_gear(self, context: Context, gap: Float64) -> Float64:
-        return -(self._stiffness * gap[:, 0] + self._damping * gap[:, 1]).ravel()
+    def _load(self, context: Context, gap: Gap) -> Float64:
+        return -(self._stiffness * gap.gap + self._damping * gap.rate)
 
-    def _stored_energy(self, gap: Float64) -> float:
-        return 0.5 * float((self._stiffness * gap[:, 0] ** 2).sum())
+    def _stored_energy(self, gap: Gap) -> float:
+        return 0.5 * float((self._stiffness * gap.gap**2).sum())
 
-    def _power_loss(self, gap: Float64) -> float:
-        return float((self._damping * gap[:, 1] ** 2).sum())
+    def _power_loss(self, gap: Gap) -> float:
+        return float((self._damping * gap.rate**2).sum())

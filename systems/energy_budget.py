@@ -15,11 +15,11 @@ from pydrake.systems.framework import (
 
 
 class EnergyBudget(LeafSystem):
-    """Kinetic and stored energy of everything, plus the integral of all that is lost.
+    """Kinetic and stored energy of everything, what is lost, less what is supplied.
 
-    The integral is a state rather than a quadrature of logged powers: slip at spin-up
+    The integrals are states rather than quadratures of logged powers: slip at spin-up
     burns several times the sink energy within some hundredths of a second, and only the
-    integrator's own stages follow that closely enough. The state is the energy over
+    integrator's own stages follow that closely enough. A state is an energy over
     `unit`, so that Drake's absolute error test is a relative one.
 
     | port | size | unit | |
@@ -27,13 +27,16 @@ class EnergyBudget(LeafSystem):
     | in `plant_state` | nq + nv | | |
     | in `energy_<name>` for each stored | 1 | J | |
     | in `power_<name>` for each dissipating | 1 | W | |
-    | out `dissipated` | 1 | J | integral of all powers since the start |
-    | out `total` | 1 | J | dissipated + stored + energy of the plant |
+    | in `supply_<name>` for each supplying | 1 | W | work of external loads |
+    | out `dissipated` | 1 | J | integral of all lost powers since the start |
+    | out `supplied` | 1 | J | integral of all supplied powers since the start |
+    | out `total` | 1 | J | dissipated - supplied + stored + energy of the plant |
 
     Args:
         plant: finalised; its kinetic and potential energy are part of the budget.
         stored: names of the systems that store energy.
         dissipating: names of those that dissipate.
+        supplying: names of those that have external loads.
         unit: energy that the accuracy of the integrator refers to, J.
 
     Raises:
@@ -45,6 +48,7 @@ class EnergyBudget(LeafSystem):
         plant: MultibodyPlant,
         stored: Sequence[str],
         dissipating: Sequence[str],
+        supplying: Sequence[str] = (),
         unit: float = 1e5,
     ) -> None:
         super().__init__()
@@ -55,7 +59,8 @@ class EnergyBudget(LeafSystem):
         self._state = declare("plant_state", plant.num_multibody_states())
         self._stored = [declare(f"energy_{name}", 1) for name in stored]
         self._powers = [declare(f"power_{name}", 1) for name in dissipating]
-        self.DeclareContinuousState(BasicVector([0.0]))
+        self._supplies = [declare(f"supply_{name}", 1) for name in supplying]
+        self.DeclareContinuousState(BasicVector([0.0, 0.0]))
         self._context: Any = self.DeclareCacheEntry(
             "plant_context",
             ValueProducer(
@@ -64,28 +69,36 @@ class EnergyBudget(LeafSystem):
             ),
             {self._state.ticket()},
         )
-        dissipated = {self.xc_ticket()}
-        self.DeclareVectorOutputPort("dissipated", 1, self._calc_dissipated, dissipated)
+        integrals = {self.xc_ticket()}
         sources = {port.ticket() for port in self._stored} | {self._context.ticket()}
-        self.DeclareVectorOutputPort("total", 1, self._calc_total, sources | dissipated)
+        vector = self.DeclareVectorOutputPort
+        vector("dissipated", 1, self._calc_dissipated, integrals)
+        vector("supplied", 1, self._calc_supplied, integrals)
+        vector("total", 1, self._calc_total, sources | integrals)
 
     def _calc_context(self, context, value) -> None:
         state = self._state.Eval(context)
         self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
 
     def DoCalcTimeDerivatives(self, context, derivatives) -> None:
-        power = sum(port.Eval(context)[0] for port in self._powers)
-        derivatives.SetFromVector(np.array([power / self._unit]))
+        lost, supplied = (
+            sum(port.Eval(context)[0] for port in ports)
+            for ports in (self._powers, self._supplies)
+        )
+        derivatives.SetFromVector(np.array([lost, supplied]) / self._unit)
 
-    def _dissipated(self, context) -> float:
-        return self._unit * context.get_continuous_state_vector().GetAtIndex(0)
+    def _integral(self, context, i: int) -> float:
+        return self._unit * context.get_continuous_state_vector().GetAtIndex(i)
 
     def _calc_dissipated(self, context, output) -> None:
-        output.SetAtIndex(0, self._dissipated(context))
+        output.SetAtIndex(0, self._integral(context, 0))
+
+    def _calc_supplied(self, context, output) -> None:
+        output.SetAtIndex(0, self._integral(context, 1))
 
     def _calc_total(self, context, output) -> None:
         plant_context = self._context.Eval(context)
-        total = self._dissipated(context)
+        total = self._integral(context, 0) - self._integral(context, 1)
         total += sum(port.Eval(context)[0] for port in self._stored)
         total += self._plant.EvalKineticEnergy(plant_context)
         total += self._plant.EvalPotentialEnergy(plant_context)
@@ -103,15 +116,27 @@ def AddEnergyBudget(
     Args:
         builder: that already holds plant and systems.
         plant: finalised.
-        systems: with ports `energy` and `dissipated_power`, each with its own name.
+        systems: each with its own name, and with any of the ports `energy`,
+            `dissipated_power` and `external_power`.
         unit: see EnergyBudget, J.
     """
-    names = [system.get_name() for system in systems]
-    budget = EnergyBudget(plant, names, names, unit)
+    by_port = {
+        port: [s for s in systems if s.HasOutputPort(port)] for port in _KIND_OF_PORT
+    }
+    names = [[system.get_name() for system in group] for group in by_port.values()]
+    budget = EnergyBudget(plant, *names, unit=unit)
     builder.AddNamedSystem("energy_budget", budget)
     builder.Connect(plant.GetOutputPort("state"), budget.GetInputPort("plant_state"))
-    for name, system in zip(names, systems):
-        for port, kind in (("energy", "energy"), ("dissipated_power", "power")):
+    for port, group in by_port.items():
+        for system in group:
+            target = f"{_KIND_OF_PORT[port]}_{system.get_name()}"
             source = system.GetOutputPort(port)
-            builder.Connect(source, budget.GetInputPort(f"{kind}_{name}"))
+            builder.Connect(source, budget.GetInputPort(target))
     return budget
+
+
+_KIND_OF_PORT = {
+    "energy": "energy",
+    "dissipated_power": "power",
+    "external_power": "supply",
+}

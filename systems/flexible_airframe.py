@@ -72,6 +72,7 @@ class FlexibleAirframe(LeafSystem):
     | modal_amplitudes | n | in the amplitudes of the ModalBody |
     | energy | 1 | kinetic, strain and gravity, J |
     | dissipated_power | 1 | W |
+    | external_power | 1 | W, of external_load |
 
     Only node_acceleration and monitor_acceleration depend on attachment_wrench: no
     algebraic loop arises from solving for the wrench with the other ports.
@@ -176,6 +177,8 @@ class FlexibleAirframe(LeafSystem):
         declare("pose", 7, self._calc_pose, state)
         declare("modal_amplitudes", self.n, self._calc_modal_amplitudes, state)
         declare("dissipated_power", 1, self._calc_dissipated_power, state)
+        external = state | {self._external.ticket()}
+        declare("external_power", 1, self._calc_external_power, external)
         declare(
             "energy",
             1,
@@ -319,6 +322,14 @@ class FlexibleAirframe(LeafSystem):
         x = context.get_continuous_state_vector().CopyToVector()
         rate = x[13 + self.n :]
         output.SetAtIndex(0, (self._modal_mass * rate) @ (self._damping @ rate))
+
+    def _calc_external_power(self, context, output) -> None:
+        power = 0.0
+        if self._external.HasValue(context):
+            x = context.get_continuous_state_vector().CopyToVector()
+            load = self._external.Eval(context)
+            power = load[:6] @ x[7:13] + load[6:] @ (self._scale * x[13 + self.n :])
+        output.SetAtIndex(0, power)
 
     def _calc_energy(self, context, output) -> None:
         x = context.get_continuous_state_vector().CopyToVector()

@@ -6,6 +6,7 @@ wired to both, makes that impossible.
 """
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from pydrake.common.value import Value
@@ -14,44 +15,59 @@ from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlan
 from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint, RigidBody
 from pydrake.systems.framework import LeafSystem
 
+from systems.lever_strut import LeverStrut
+
 
 class GearForces(LeafSystem):
-    """Tyre wrenches, strut forces and brake torques in the plant's own form.
+    """Tyre wrenches, strut forces, brake and pitch torques in the plant's own form.
 
     | port | size | unit | |
     |---|---|---|---|
     | in `tire_<wheel>` | 6 | N m, N | [torque; force] on the wheel at its centre, W |
     | in `strut_<gear>` | 1 | N | along the strut, positive apart |
+    | in `ratio_<gear>` (for lever struts) | 1 | m/rad | stroke over angle of the arm |
+    | in `pitch_<gear>` (for bogies) | 1 | N m | torque on the beam about its joint;
+      the opposite torque acts on the piston |
     | in `brake_<wheel>` (for braked wheels) | 1 | N m | torque on the wheel about its
       joint axis; the opposite torque acts on the axle |
     | out `spatial_forces` | abstract | | list of ExternallyAppliedSpatialForce |
-    | out `generalized_force` | nv | N, N m | strut forces and brake torques |
+    | out `generalized_force` | nv | N, N m | of struts, brakes and pitch dampers |
 
     Args:
         plant: finalised.
         wheels: name to wheel body.
-        struts: name to strut joint, whose translation is the stroke.
+        struts: name to strut joint, whose translation is the stroke, or to the shock
+            absorber of an arm.
         brakes: name to spin joint of each braked wheel.
+        pitches: name to joint of each bogie beam.
     """
 
     def __init__(
         self,
         plant: MultibodyPlant,
         wheels: Mapping[str, RigidBody],
-        struts: Mapping[str, PrismaticJoint],
+        struts: Mapping[str, PrismaticJoint | LeverStrut],
         brakes: Mapping[str, RevoluteJoint] | None = None,
+        pitches: Mapping[str, RevoluteJoint] | None = None,
     ) -> None:
         super().__init__()
-        brakes = brakes or {}
+        brakes, pitches = brakes or {}, pitches or {}
         self._nv = plant.num_velocities()
         self._bodies = tuple(wheel.index() for wheel in wheels.values())
         self._tires = self._inputs("tire", wheels, 6)
-        self._joints = self._inputs("strut", struts, 1) + self._inputs(
-            "brake", brakes, 1
+        self._joints = (
+            *self._inputs("strut", struts, 1),
+            *self._inputs("brake", brakes, 1),
+            *self._inputs("pitch", pitches, 1),
         )
-        joints = [*struts.values(), *brakes.values()]
+        levers = {n: s.joint for n, s in struts.items() if isinstance(s, LeverStrut)}
+        self._ratios = self._inputs("ratio", levers, 1)
+        self._levers = [i for i, name in enumerate(struts) if name in levers]
+        sliding = [levers.get(name, strut) for name, strut in struts.items()]
+        joints: list[Any] = [*sliding, *brakes.values(), *pitches.values()]
         self._rows = [joint.velocity_start() for joint in joints]
-        self._signs = np.repeat([-1.0, 1.0], [len(struts), len(brakes)])
+        self._signs = np.ones(len(joints))
+        self._signs[: len(struts)] = -1.0
         self.DeclareAbstractOutputPort(
             "spatial_forces",
             lambda: Value([ExternallyAppliedSpatialForce()]),
@@ -62,7 +78,8 @@ class GearForces(LeafSystem):
             "generalized_force",
             self._nv,
             self._calc_generalized_force,
-            {port.ticket() for port in self._joints} or {self.nothing_ticket()},
+            {port.ticket() for port in (*self._joints, *self._ratios)}
+            or {self.nothing_ticket()},
         )
 
     def _inputs(self, kind: str, names: Mapping, size: int) -> tuple:
@@ -76,6 +93,8 @@ class GearForces(LeafSystem):
     def _calc_generalized_force(self, context, output) -> None:
         out = np.zeros(self._nv)
         forces = [port.Eval(context)[0] for port in self._joints]
+        for i, port in zip(self._levers, self._ratios):
+            forces[i] *= port.Eval(context)[0]
         out[self._rows] = self._signs * forces
         output.SetFromVector(out)
 

@@ -10,8 +10,12 @@ from typing import Any
 import numpy as np
 from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
-from pydrake.multibody.tree import PrismaticJoint, RigidBody
+from pydrake.multibody.tree import Joint, PrismaticJoint, RevoluteJoint, RigidBody
 from pydrake.systems.framework import LeafSystem, ValueProducer
+
+from systems.lever_strut import LeverGeometry, LeverStrut
+
+Strut = PrismaticJoint | LeverStrut
 
 
 class WheelKinematics(LeafSystem):
@@ -24,6 +28,9 @@ class WheelKinematics(LeafSystem):
       direction (y axis of the wheel body), v_WC, ω_WH of the wheel body; all in W |
     | out `strut_<name>` | 2 | m, m/s | stroke and rate, positive in compression |
     | out `strut_axis_<name>` | 3 | | direction of compression, W |
+    | out `strut_ratio_<name>` | 1 | m/rad | stroke over angle, of lever struts only |
+    | out `spin_<name>` | 1 | rad/s | rate of the joints in `spins` |
+    | out `pitch_<name>` | 2 | rad, rad/s | angle and rate of the joints in `pitches` |
 
     The plant is a model only: its context lives in a cache entry, as in Drake's
     InverseDynamics.
@@ -31,14 +38,19 @@ class WheelKinematics(LeafSystem):
     Args:
         plant: finalised, continuous.
         wheels: port name to wheel body, whose origin is the wheel centre.
-        struts: port name to strut joint, whose translation is the stroke.
+        struts: port name to strut joint, whose translation is the stroke, or to the
+            shock absorber of an arm.
+        spins: port name to spin joint of each wheel whose spin is wanted.
+        pitches: port name to joint of each bogie beam.
     """
 
     def __init__(
         self,
         plant: MultibodyPlant,
         wheels: Mapping[str, RigidBody],
-        struts: Mapping[str, PrismaticJoint],
+        struts: Mapping[str, Strut],
+        spins: Mapping[str, RevoluteJoint] | None = None,
+        pitches: Mapping[str, RevoluteJoint] | None = None,
     ) -> None:
         super().__init__()
         self._plant = plant
@@ -64,20 +76,29 @@ class WheelKinematics(LeafSystem):
             self.DeclareVectorOutputPort(
                 f"wheel_{name}", 12, self._wheel_port(i), {self._motion.ticket()}
             )
-        for name, joint in struts.items():
-            rows = [
-                joint.position_start(),
-                plant.num_positions() + joint.velocity_start(),
-            ]
-            self.DeclareVectorOutputPort(
-                f"strut_{name}", 2, self._strut_port(rows), state
-            )
-            self.DeclareVectorOutputPort(
-                f"strut_axis_{name}",
-                3,
-                self._axis_port(joint),
-                {self._context.ticket()},
-            )
+        for name, strut in struts.items():
+            self._declare_strut(name, strut, state)
+        for name, joint in (spins or {}).items():
+            port = self._rows_port(_state_rows(plant, joint)[1:])
+            self.DeclareVectorOutputPort(f"spin_{name}", 1, port, state)
+        for name, joint in (pitches or {}).items():
+            port = self._rows_port(_state_rows(plant, joint))
+            self.DeclareVectorOutputPort(f"pitch_{name}", 2, port, state)
+
+    def _declare_strut(self, name: str, strut: Strut, state: set) -> None:
+        declare, pose = self.DeclareVectorOutputPort, {self._context.ticket()}
+        if isinstance(strut, LeverStrut):
+            row, rate = _state_rows(self._plant, strut.joint)
+            geometry = strut.geometry
+            stroke = self._lever_port(row, rate, geometry)
+            declare(f"strut_{name}", 2, stroke, state)
+            declare(f"strut_axis_{name}", 3, self._lever_axis_port(strut), pose)
+            ratio = self._ratio_port(row, geometry)
+            declare(f"strut_ratio_{name}", 1, ratio, state)
+        else:
+            rows = self._rows_port(_state_rows(self._plant, strut))
+            declare(f"strut_{name}", 2, rows, state)
+            declare(f"strut_axis_{name}", 3, self._axis_port(strut), pose)
 
     def _wheel_port(self, i: int):
         def calc(context, output):
@@ -85,9 +106,38 @@ class WheelKinematics(LeafSystem):
 
         return calc
 
-    def _strut_port(self, rows: list[int]):
+    def _rows_port(self, rows: list[int]):
         def calc(context, output):
             output.SetFromVector(self._state.Eval(context)[rows])
+
+        return calc
+
+    def _lever_port(self, row: int, rate: int, geometry: LeverGeometry):
+        def calc(context, output):
+            state = self._state.Eval(context)
+            angle = float(state[row])
+            ratio = geometry.ratio(angle)
+            output.SetFromVector([geometry.stroke(angle), ratio * state[rate]])
+
+        return calc
+
+    def _ratio_port(self, row: int, geometry: LeverGeometry):
+        def calc(context, output):
+            angle = float(self._state.Eval(context)[row])
+            output.SetAtIndex(0, geometry.ratio(angle))
+
+        return calc
+
+    def _lever_axis_port(self, strut: LeverStrut):
+        parent = strut.joint.frame_on_parent()
+        child = strut.joint.frame_on_child()
+
+        def calc(context, output):
+            plant_context = self._context.Eval(context)
+            upper = parent.CalcPoseInWorld(plant_context).multiply(strut.p_upper)
+            lower = child.CalcPoseInWorld(plant_context).multiply(strut.p_lower)
+            span = upper - lower
+            output.SetFromVector(span / np.sqrt(span @ span))
 
         return calc
 
@@ -115,3 +165,8 @@ class WheelKinematics(LeafSystem):
             row[6:9] = V_WH[3:]
             row[9:] = V_WH[:3]
         value.set_value(out)
+
+
+def _state_rows(plant: MultibodyPlant, joint: Joint) -> list[int]:
+    """Rows of position and velocity of a joint with one freedom."""
+    return [joint.position_start(), plant.num_positions() + joint.velocity_start()]

@@ -1,6 +1,6 @@
 """Landing gears for the synthetic aircraft: one nose gear, two main gears, twins."""
 
-from drake_landing.gear import LandingGear
+from drake_landing.gear import LandingGear, read_gear
 from tests.systems.synthetic_body import LEFT_GEAR, NOSE_GEAR, RIGHT_GEAR
 
 _NOSE = {
@@ -50,4 +50,4 @@ def aircraft_gears() -> tuple[LandingGear, ...]:
         _main("main_left", LEFT_GEAR, -1.0),
         _main("main_right", RIGHT_GEAR, 1.0),
     )
-    return tuple(LandingGear.model_validate(gear) for gear in data)
+    return tuple(read_gear(gear) for gear in data)

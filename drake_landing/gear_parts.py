@@ -1,0 +1,324 @@
+"""Parts of a landing gear: validated data, as written in a case file.
+
+Positions and inertias are in the airframe frame B (x aft, y to starboard, z up), gear
+extended, aircraft undeformed. SI units except angles in degrees.
+"""
+
+from itertools import pairwise
+from typing import Annotated, Self
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+
+Vector3 = tuple[float, float, float]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+
+
+def _ascending(table: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    for (before, _), (after, _) in pairwise(table):
+        if not after > before:
+            raise ValueError(
+                f"{after:g} follows {before:g}, expected strictly ascending abscissae"
+            )
+    return table
+
+
+Table = Annotated[
+    list[tuple[float, float]], Field(min_length=2), AfterValidator(_ascending)
+]
+
+
+class Data(BaseModel):
+    """Frozen; unknown keys are errors."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class RigidPart(Data):
+    """Mass properties of one rigid part."""
+
+    mass: Positive = Field(description="mass, kg, > 0")
+    cg: Vector3 = Field(description="centre of gravity in B, gear extended, m")
+    inertia: tuple[Positive, Positive, Positive] = Field(
+        description="principal moments of inertia about the centre of gravity along "
+        "the axes of B, kg m², > 0; none may exceed the sum of the others"
+    )
+
+    @model_validator(mode="after")
+    def _physical(self) -> Self:
+        x, y, z = self.inertia
+        if 2 * max(x, y, z) > x + y + z:
+            raise ValueError(
+                f"inertia ({x}, {y}, {z}) kg m²: one moment exceeds the sum of the "
+                "other two, which no body has"
+            )
+        return self
+
+
+class Wheel(Data):
+    """One wheel with tyre and rotating brake parts; all wheels of a gear are equal."""
+
+    mass: Positive = Field(description="mass of one wheel, kg, > 0")
+    spin_inertia: Positive = Field(description="about the axle, kg m², > 0")
+    transverse_inertia: Positive | None = Field(
+        default=None,
+        description="about any axis across the axle through the wheel centre, kg m², "
+        "> half the spin inertia; default 0.6 of the spin inertia",
+    )
+
+    @property
+    def transverse(self) -> float:
+        """Moment of inertia across the axle, kg m²."""
+        return self.transverse_inertia or 0.6 * self.spin_inertia
+
+    @model_validator(mode="after")
+    def _physical(self) -> Self:
+        if 2 * self.transverse < self.spin_inertia:
+            raise ValueError(
+                f"transverse_inertia {self.transverse} kg m² is below half the spin "
+                f"inertia {self.spin_inertia} kg m², which no body has"
+            )
+        return self
+
+
+class Tyre(Data):
+    """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'."""
+
+    radius: Positive = Field(description="unloaded radius, m, > 0")
+    stiffness: Positive | None = Field(
+        default=None, description="vertical stiffness, N/m, > 0; or give load_table"
+    )
+    load_table: Table | None = Field(
+        default=None,
+        description="measured deflection (m, ascending) against load (N), from [0, 0]; "
+        "instead of stiffness",
+    )
+    damping: NotNegative = Field(default=0.0, description="vertical damping, N s/m")
+    nominal_force: NotNegative = Field(
+        default=0.0, description="F_zN, subtracted from the vertical force, N"
+    )
+    bottoming_deflection: Positive | None = Field(
+        default=None, description="deflection at which the rim touches, m; default none"
+    )
+    bottoming_stiffness: Positive = Field(
+        default=2e7, description="of the rim, added beyond bottoming_deflection, N/m"
+    )
+    friction_peak: NotNegative = Field(
+        default=0.8, le=2.0, description="D of mu = D sin(C atan(B slip)), 0 to 2"
+    )
+    friction_shape: float = Field(
+        default=1.6, ge=1.0, le=2.0, description="C of the friction law, 1 to 2"
+    )
+    friction_stiffness: Positive = Field(
+        default=12.5, description="B of the friction law, > 0"
+    )
+    friction_table: Table | None = Field(
+        default=None,
+        description="slip (ascending) against friction coefficient, from [0, 0]; "
+        "instead of the friction law",
+    )
+    lateral_friction_ratio: Positive = Field(
+        default=1.0, description="friction across over friction along the wheel, > 0"
+    )
+    relaxation_length: NotNegative = Field(
+        default=0.0, description="m; 0: the force follows the slip without delay"
+    )
+
+    @model_validator(mode="after")
+    def _one_law(self) -> Self:
+        if (self.stiffness is None) == (self.load_table is None):
+            raise ValueError("give either stiffness or load_table")
+        return self
+
+
+class GasChamber(Data):
+    """A second gas chamber behind a floating piston."""
+
+    precharge_force: Positive = Field(
+        description="strut force at which the floating piston starts to move, N"
+    )
+    gas_length: Positive = Field(description="volume over main piston area, m")
+    gas_exponent: float = Field(
+        default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
+    )
+
+
+class ShockAbsorber(Data):
+    """Gas spring, orifice damper, friction and end stops along the strut.
+
+    The gas force is precharge_force·(1 - stroke/gas_length)^(-gas_exponent).
+    """
+
+    stroke: Positive = Field(description="mechanical stroke to the stop, m, > 0")
+    gas_length: Positive = Field(description="length of the gas column, m, > stroke")
+    precharge_force: Positive = Field(
+        description="gas force fully extended, N, > 0; the extension stop carries it"
+    )
+    gas_exponent: float = Field(
+        default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
+    )
+    second_chamber: GasChamber | None = None
+    piston_area: Positive | None = Field(
+        default=None, description="m²; where given, the gas pressure is reported"
+    )
+    compression_damping: NotNegative = Field(
+        description="force over squared rate when closing, N s²/m²"
+    )
+    rebound_damping: NotNegative = Field(
+        description="force over squared rate when opening, N s²/m²"
+    )
+    compression_metering: Table | None = Field(
+        default=None, description="stroke (m) against factor on compression_damping"
+    )
+    rebound_metering: Table | None = Field(
+        default=None, description="stroke (m) against factor on rebound_damping"
+    )
+    compression_stop_stiffness: Positive = Field(
+        default=3e7, description="beyond the stroke, N/m, > 0"
+    )
+    extension_stop_stiffness: Positive = Field(default=5e7, description="N/m, > 0")
+    stop_damping: float = Field(
+        default=0.5,
+        ge=0,
+        le=10,
+        description="of the stops: damping over elastic force and rate, s/m",
+    )
+    seal_friction: float = Field(
+        default=0.0, ge=0, le=1, description="friction force over gas force"
+    )
+    bearing_friction: float = Field(
+        default=0.0, ge=0, le=1, description="friction force over bearing reactions"
+    )
+    bearing_distance: Positive = Field(
+        default=0.5, description="between the bearings, extended, m, > 0"
+    )
+    axle_arm: NotNegative = Field(
+        default=1.0, description="axle below the lower bearing, extended, m"
+    )
+
+    @model_validator(mode="after")
+    def _gas_remains(self) -> Self:
+        second = self.second_chamber
+        length = self.gas_length + (second.gas_length if second else 0.0)
+        if length <= self.stroke:
+            raise ValueError(
+                f"gas_length {length} m must exceed the stroke {self.stroke} m: at "
+                "full stroke some gas is left"
+            )
+        return self
+
+
+class AntiSkid(Data):
+    """Release of the brakes over slip."""
+
+    onset: NotNegative = Field(
+        default=0.08, description="slip up to which the demanded torque acts"
+    )
+    release: Positive = Field(
+        default=0.2, le=1, description="slip from which on the brake is off, > onset"
+    )
+    protection_load: Positive = Field(
+        default=1e4,
+        description="tyre load at which the brake is fully available (touchdown "
+        "protection), N",
+    )
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        if not self.release > self.onset:
+            raise ValueError(
+                f"release {self.release} must exceed the onset {self.onset}"
+            )
+        return self
+
+
+class Brake(Data):
+    """The brake of every wheel of a gear: demanded torque while brakes are applied."""
+
+    torque: NotNegative | None = Field(
+        default=None, description="of one wheel, N m; or give torque_table"
+    )
+    torque_table: Table | None = Field(
+        default=None,
+        description="time (s, ascending) against torque of one wheel (N m, >= 0)",
+    )
+    anti_skid: AntiSkid | None = Field(
+        default=None, description="releases the brake over slip; default none"
+    )
+
+    @model_validator(mode="after")
+    def _one_law(self) -> Self:
+        if (self.torque is None) == (self.torque_table is None):
+            raise ValueError("give either torque or torque_table")
+        if self.torque_table and min(t for _, t in self.torque_table) < 0:
+            raise ValueError("torque_table: a torque is negative, expected >= 0 N m")
+        return self
+
+
+class PitchDamper(Data):
+    """Damper and positioner between piston and bogie beam."""
+
+    trim_deg: float = Field(
+        default=0.0,
+        gt=-60,
+        lt=60,
+        description="pitch of the beam in flight, front axle up > 0, degrees",
+    )
+    stiffness: NotNegative = Field(
+        default=0.0, description="of the positioner about the trim, N m/rad"
+    )
+    max_moment: Positive | None = Field(
+        default=None,
+        description="that the positioner yields at, N m; default: it never yields",
+    )
+    damping: NotNegative = Field(default=0.0, description="moment over rate, N m s/rad")
+    quadratic_damping: NotNegative = Field(
+        default=0.0, description="moment over squared rate, N m s²/rad²"
+    )
+    stop_deg: Positive | None = Field(
+        default=None,
+        description="travel to either side of the level beam, degrees; default none",
+    )
+    stop_stiffness: Positive = Field(default=5e7, description="N m/rad, > 0")
+
+    @model_validator(mode="after")
+    def _within_stops(self) -> Self:
+        if self.stop_deg is not None and abs(self.trim_deg) > self.stop_deg:
+            raise ValueError(
+                f"trim_deg {self.trim_deg} lies beyond the stop at {self.stop_deg} deg"
+            )
+        return self
+
+
+class FurtherAttachment(Data):
+    """A second hold of the fitting on the airframe, by translations only.
+
+    A drag or side stay: one direction, from end to end. A bearing that leaves the
+    fitting free along its pin: two.
+    """
+
+    name: str = Field(
+        pattern=r"^[a-z][a-z0-9_]*$", description="unique in the gear, e.g. drag_stay"
+    )
+    node: int = Field(gt=0, description="grid of the airframe model")
+    directions: tuple[Vector3, ...] = Field(
+        min_length=1,
+        max_length=3,
+        description="in which the fitting holds the node, B; any length, independent",
+    )
+    stiffness: Positive | None = Field(
+        default=None,
+        description="along each direction, N/m; default: rigid, for which the airframe "
+        "must be flexible wherever a gear is held in more than six directions",
+    )
+    damping: NotNegative = Field(
+        default=0.0, description="along each direction, beside a stiffness, N s/m"
+    )
+
+    @model_validator(mode="after")
+    def _sound(self) -> Self:
+        if any(not any(direction) for direction in self.directions):
+            raise ValueError("directions: (0, 0, 0) is none")
+        if self.stiffness is None and self.damping:
+            raise ValueError("damping needs a stiffness beside it")
+        return self
