@@ -103,40 +103,11 @@ _NAMES = {
 _TITLES = {"TITL": "title", "SUBT": "subtitle", "LABE": "label"}
 # Commands that would change the answer and that nothing here carries out.
 _REFUSED = frozenset(
-    [
-        "AEROF",
-        "APRES",
-        "AUXCASE",
-        "BC",
-        "BOLTLD",
-        "CMETHOD",
-        "DEFORM",
-        "DESGLB",
-        "DESSUB",
-        "DIVERG",
-        "DYNRED",
-        "FMETHOD",
-        "GUST",
-        "MFLUID",
-        "MODSEL",
-        "NLPARM",
-        "NLSTEP",
-        "NONLINEAR",
-        "RGYRO",
-        "RSDAMP",
-        "SUBCOM",
-        "SUBSEQ",
-        "SYM",
-        "SYMCOM",
-        "REPCASE",
-        "TEMPERATURE",
-        "TEMP",
-        "TFL",
-        "TRIM",
-        "TSTRU",
-        "TSTEPNL",
-        "A2GG",
-    ]
+    """
+    AEROF APRES AUXCASE BC BOLTLD CMETHOD DEFORM DESGLB DESSUB DIVERG DYNRED FMETHOD
+    GUST MFLUID MODSEL NLPARM NLSTEP NONLINEAR RGYRO RSDAMP SUBCOM SUBSEQ SYM SYMCOM
+    REPCASE TEMPERATURE TEMP TFL TRIM TSTRU TSTEPNL A2GG
+    """.split()
 )
 _COMMAND = re.compile(r"\s*([A-Z0-9]+)\s*(\([^)]*\))?\s*[=,]?\s*(.*)$", re.S)
 

@@ -3,74 +3,14 @@
 # Cards that cannot change the answer of the solutions here: output, plots, optimisation
 # of resources, and data that only other solutions or unselected sets use.
 WITHOUT_EFFECT = frozenset(
-    [
-        "CBARAO",
-        "CONTRLT",
-        "DCONSTR",
-        "DEQATN",
-        "DESVAR",
-        "DLINK",
-        "DOPTPRM",
-        "DRESP1",
-        "DRESP2",
-        "DRESP3",
-        "DSCREEN",
-        "DTABLE",
-        "DTI",
-        "DVCREL1",
-        "DVMREL1",
-        "DVPREL1",
-        "DVPREL2",
-        "ECHOOFF",
-        "ECHOON",
-        "EIGB",
-        "EIGC",
-        "FREQ",
-        "FREQ1",
-        "FREQ2",
-        "FREQ3",
-        "FREQ4",
-        "FREQ5",
-        "GEOMIN",
-        "MATS1",
-        "MDLPRM",
-        "MONPNT1",
-        "MONPNT2",
-        "MONPNT3",
-        "NLPARM",
-        "NLPCI",
-        "OUTRCV",
-        "PLOTEL3",
-        "PLOTEL4",
-        "RANDPS",
-        "RANDT1",
-        "RCROSS",
-        "RLOAD1",
-        "RLOAD2",
-        "SEQGP",
-        "SET1",
-        "SET2",
-        "SET3",
-        "SPLINE1",
-        "TABLED2",
-        "TABLEM1",
-        "TABLEM2",
-        "TABLEM3",
-        "TABLEM4",
-        "TABLES1",
-        "TABLEST",
-        "TABRND1",
-        "TEMP",
-        "TEMPD",
-        "TEMPP1",
-        "TEMPP3",
-        "TEMPRB",
-        "TSTEPNL",
-        "UXVEC",
-        "VIEW",
-        "VIEW3D",
-        "WEIGHT",
-    ]
+    """
+    CBARAO CONTRLT DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN
+    DTABLE DTI DVCREL1 DVMREL1 DVPREL1 DVPREL2 ECHOOFF ECHOON EIGB EIGC FREQ FREQ1
+    FREQ2 FREQ3 FREQ4 FREQ5 GEOMIN MATS1 MDLPRM MONPNT1 MONPNT2 MONPNT3 NLPARM NLPCI
+    OUTRCV PLOTEL3 PLOTEL4 RANDPS RANDT1 RCROSS RLOAD1 RLOAD2 SEQGP SET1 SET2 SET3
+    SPLINE1 TABLED2 TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 TABLEST TABRND1 TEMP
+    TEMPD TEMPP1 TEMPP3 TEMPRB TSTEPNL USET USET1 UXVEC VIEW VIEW3D WEIGHT
+    """.split()
 )
 
 # Property cards that are harmless once their elements are passed over.
@@ -99,32 +39,10 @@ DEFAULTS_FOR: dict[str, tuple[str, tuple[int, ...]]] = {
 }
 
 ELEMENTS = tuple(
-    [
-        "CBAR",
-        "CBEAM",
-        "CROD",
-        "CTUBE",
-        "CELAS1",
-        "CELAS2",
-        "CDAMP1",
-        "CDAMP2",
-        "CMASS1",
-        "CMASS2",
-        "CVISC",
-        "CBUSH",
-        "CONM1",
-        "CONM2",
-        "CQUAD4",
-        "CTRIA3",
-        "CSHEAR",
-        "CHEXA",
-        "CPENTA",
-        "CTETRA",
-        "CPYRAM",
-        "RBE2",
-        "RBE3",
-        "RBAR",
-    ]
+    """
+    CBAR CBEAM CROD CTUBE CELAS1 CELAS2 CDAMP1 CDAMP2 CMASS1 CMASS2 CVISC CBUSH
+    CONM1 CONM2 CQUAD4 CTRIA3 CSHEAR CHEXA CPENTA CTETRA CPYRAM RBE2 RBE3 RBAR
+    """.split()
 )
 
 # Property tables whose ids are their own; PSHELL and PCOMP share theirs.
@@ -212,6 +130,7 @@ GRIDS: dict[str, str] = {
     "DELAY": "id?",
     "TIC": "id?",
     "PLOTEL": "g1 g2",
+    "PLOAD": "g1 g2 g3 g4",
     "PLOAD4": "g1 g34",
 }
 

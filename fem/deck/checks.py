@@ -25,7 +25,9 @@ def check(deck: Deck) -> list[str]:
     if problems:
         return problems
     problems += _grids(tables) + _properties(tables) + _materials(tables)
-    problems += _frames(tables) + _loaded(tables) + _sets(tables)
+    problems += _frames(tables) + _loaded(tables)
+    known = tables["TABLED1"]["tid"].to_numpy(np.int64)
+    problems += _missing(tables, "TLOAD1", "tid", known, "TABLED1")
     if not problems:
         try:
             resolve(tables["CORD"], tables["GRID"])
@@ -147,41 +149,11 @@ def _loaded(tables: Tables) -> list[str]:
 
 
 STATIC_LOADS = tuple(
-    [
-        "FORCE",
-        "MOMENT",
-        "FORCE1",
-        "MOMENT1",
-        "FORCE2",
-        "MOMENT2",
-        "SLOAD",
-        "PLOAD1",
-        "PLOAD2",
-        "PLOAD4",
-        "GRAV",
-        "ACCEL1",
-        "RFORCE",
-        "SPCD",
-    ]
+    """
+    FORCE MOMENT FORCE1 MOMENT1 FORCE2 MOMENT2 SLOAD PLOAD PLOAD1 PLOAD2 PLOAD4
+    GRAV ACCEL1 RFORCE SPCD
+    """.split()
 )
-
-
-def _sets(tables: Tables) -> list[str]:
-    """Sets that combine others."""
-    problems: list[str] = []
-    combined = {
-        "SPCADD": ("sets", ("SPC", "SPCADD")),
-        "MPCADD": ("sets", ("MPC", "MPCADD")),
-        "NSMADD": ("sets", ("NSM", "NSML", "NSMADD")),
-        "LOAD": ("lids", STATIC_LOADS),
-        "DLOAD": ("lids", ("TLOAD1", "TLOAD2")),
-    }
-    for name, (column, targets) in combined.items():
-        problems += _missing(
-            tables, name, column, ids(tables, targets, "sid"), f"{targets[0]} set"
-        )
-    known = tables["TABLED1"]["tid"].to_numpy(np.int64)
-    return problems + _missing(tables, "TLOAD1", "tid", known, "TABLED1")
 
 
 _TRANSIENT = (109, 112, 129)
@@ -197,6 +169,15 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
     ("method", ("EIGRL",), _MODAL),
     ("nsm", ("NSM", "NSML", "NSMADD"), ()),
 )
+
+# Cards that combine sets: attribute of the subcase, column, tables of the members.
+_COMBINED: dict[str, tuple[str, str, tuple[str, ...]]] = {
+    "SPCADD": ("spc", "sets", ("SPC", "SPCADD")),
+    "MPCADD": ("mpc", "sets", ("MPC", "MPCADD")),
+    "NSMADD": ("nsm", "sets", ("NSM", "NSML", "NSMADD")),
+    "LOAD": ("load", "lids", STATIC_LOADS),
+    "DLOAD": ("dload", "lids", ("TLOAD1", "TLOAD2")),
+}
 
 
 def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> list[str]:
@@ -216,4 +197,19 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> list[str
                     f"{number} is not defined; expected a set of "
                     f"{', '.join(names[:3])}"
                 )
+        problems += _members(deck, attribute)
     return list(dict.fromkeys(problems))
+
+
+def _members(deck: Deck, attribute: str) -> list[str]:
+    """Sets that a selected SPCADD, LOAD etc. combines and that are not there."""
+    chosen = [getattr(subcase, attribute) for subcase in deck.case_control]
+    problems: list[str] = []
+    for name, (user, column, targets) in _COMBINED.items():
+        table = deck.cards[name]
+        table = table[table["sid"].isin(chosen)].reset_index(drop=True)
+        if user == attribute:
+            known = ids(deck.cards, targets, "sid")
+            what = f"{targets[0]} set"
+            problems += _missing({name: table}, name, column, known, what)
+    return problems

@@ -80,6 +80,7 @@ LAYOUTS: dict[str, str] = {
     "SUPORT": "(id:i c:c=0)",
     "ASET": "(id:i c:c=0)",
     "BSET": "(id:i c:c=0)",
+    "BNDFIX": "(id:i c:c=0)",
     "QSET": "(id:i c:c=0)",
     # static loads
     "FORCE": _FORCE.format("f"),
@@ -89,6 +90,7 @@ LAYOUTS: dict[str, str] = {
     "FORCE2": "sid:i g:i f:f g1:i g2:i g3:i g4:i",
     "MOMENT2": "sid:i g:i m:f g1:i g2:i g3:i g4:i",
     "SLOAD": "sid:i (id:i f:f)",
+    "PLOAD": "sid:i p:f g1:i g2:i g3:i g4:i=0",
     "PLOAD1": "sid:i eid:i type:s scale:s=LE x1:f=0. p1:f=0. x2:f=nan p2:f=nan",
     "GRAV": "sid:i cid:i=0 a:f n1:f=0. n2:f=0. n3:f=0. -",
     "RFORCE": (

@@ -9,8 +9,12 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from fem.deck.replication import repetitions, replicate
 from fem.deck.source import Line
+from fem.deck.values import Malformed
 
+_MOST_UNREAD = 20  # lines that are listed
+_SEPARATOR = re.compile(r"\s*,\s*|\s+")
 _NAME = re.compile(r"[A-Z][A-Z0-9_]{0,15}$")
 
 
@@ -60,67 +64,113 @@ class Bulk:
 
 def read_cards(lines: Iterable[Line]) -> Bulk:
     """Cards of bulk data lines, up to ENDDATA."""
-    bulk = Bulk([], [], [], has_enddata=False)
-    open_markers: dict[str, RawCard] = {}
-    card: RawCard | None = None
-    after_end = 0
-    for line in lines:
-        if line.missing:
-            bulk.problems.append(
-                f"{line.file}:{line.number}: the file of {line.text} is not there"
-            )
-            continue
-        text = line.text
-        if "$" in text:
-            text = text[: text.index("$")]
-        if not text or text.isspace():
-            continue
-        if bulk.has_enddata:
-            after_end += 1
-            continue
-        text = text.upper()
+    return _Reader().read(lines)
+
+
+class _Reader:
+    """State while lines are read: the card that is open, marks that wait."""
+
+    def __init__(self) -> None:
+        self.bulk = Bulk([], [], [], has_enddata=False)
+        self.card: RawCard | None = None
+        self.open_markers: dict[str, RawCard] = {}
+        self.rule: list[str] = []
+        self.unread = 0
+
+    def read(self, lines: Iterable[Line]) -> Bulk:
+        after_end = 0
+        for line in lines:
+            if line.missing:
+                self.problem(line, f"the file of {line.text} is not there")
+                continue
+            text = line.text
+            if "$" in text:
+                text = text[: text.index("$")]
+            if not text or text.isspace():
+                continue
+            if self.bulk.has_enddata:
+                after_end += 1
+                continue
+            self.take(line, text.upper())
+        if after_end:
+            self.bulk.notices.append(f"{after_end} lines after ENDDATA are not read")
+        if self.unread > _MOST_UNREAD:
+            more = self.unread - _MOST_UNREAD
+            self.bulk.problems.append(f"... and {more} more lines cannot be read")
+        return self.bulk
+
+    def problem(self, line: Line, text: str) -> None:
+        self.bulk.problems.append(f"{line.file}:{line.number}: {text}")
+
+    def take(self, line: Line, text: str) -> None:
         head, data, marker, large = split_line(text)
-        place = f"{line.file}:{line.number}"
-        if len(data) > (4 if large else 8):
-            bulk.problems.append(
-                f"{place}: {len(data)} data fields in a free-field line, expected at "
-                f"most {4 if large else 8} and a continuation: {text.strip()}"
+        width = 4 if large else 8
+        if len(data) > width:
+            self.problem(
+                line,
+                f"{len(data)} data fields in a free-field line, expected at most "
+                f"{width} and a continuation: {text.strip()}",
             )
-            data = data[: 4 if large else 8]
-        if head and head[0] not in "+*":
-            if head == "ENDDATA":
-                bulk.has_enddata = True
-                continue
-            name = head.rstrip("*").rstrip()
-            if not _NAME.match(name):
-                bulk.problems.append(
-                    f"{place}: cannot be read, expected a card: {text.strip()[:60]}"
-                )
-                card = None
-                continue
-            fields, end = [name, *data], 4 if large else 8
-            card = RawCard(fields, line.file, line.number, marker, end)
-            bulk.cards.append(card)
+            data = data[:width]
+        if not head or head[0] in "+*":
+            self.continuation(line, text, head, data, marker, large)
+        elif head == "ENDDATA":
+            self.bulk.has_enddata = True
+        elif head[0] == "=":
+            self.replication(line, text, head, data)
+        elif _NAME.match(name := head.rstrip("*").rstrip()):
+            fields = [name, *data]
+            self.card = RawCard(fields, line.file, line.number, marker, width)
+            self.bulk.cards.append(self.card)
+            if marker:
+                self.open_markers[marker] = self.card
         else:
-            owner = _owner(head.lstrip("+*").strip(), card, open_markers)
-            if owner is None:
-                bulk.problems.append(
-                    f"{place}: a continuation without a card: {text.strip()[:60]}"
-                )
-                continue
-            _extend(owner, data, large)
-            open_markers.pop(owner.marker, None)
-            card, card.marker = owner, marker
+            self.unreadable(line, text, "cannot be read, expected a card")
+            self.card = None
+
+    def continuation(
+        self,
+        line: Line,
+        text: str,
+        head: str,
+        data: list[str],
+        marker: str,
+        large: bool,
+    ) -> None:
+        owner = _owner(head.lstrip("+*").strip(), self.card, self.open_markers)
+        if owner is None:
+            self.unreadable(line, text, "a continuation without a card")
+            return
+        _extend(owner, data, large)
+        self.open_markers.pop(owner.marker, None)
+        self.card, owner.marker = owner, marker
         if marker:
-            open_markers[marker] = card
-    if after_end:
-        bulk.notices.append(f"{after_end} lines after ENDDATA are not read")
-    return bulk
+            self.open_markers[marker] = owner
+
+    def replication(self, line: Line, text: str, head: str, data: list[str]) -> None:
+        count = repetitions(head)
+        if count is None or self.card is None or (head != "=" and not self.rule):
+            self.unreadable(line, text, "cannot be read, expected a card")
+            return
+        if head == "=":
+            self.rule = data
+        try:
+            for _ in range(count):
+                fields = replicate(self.card.fields, self.rule)
+                self.card = RawCard(fields, line.file, line.number)
+                self.bulk.cards.append(self.card)
+        except Malformed as error:
+            self.unreadable(line, text, str(error))
+
+    def unreadable(self, line: Line, text: str, what: str) -> None:
+        self.unread += 1
+        if self.unread <= _MOST_UNREAD:
+            self.problem(line, f"{what}: {text.strip()[:60]}")
 
 
 def split_line(text: str) -> tuple[str, list[str], str, bool]:
     """Name or continuation mark, data fields, marker for what follows, large field?"""
-    if "," in text:
+    if "," in text[:10]:  # as Nastran recognises free fields
         return _split_free(text)
     head = text[:8].strip()
     if head[-1:] == "*" or head[:1] == "*":
@@ -137,7 +187,7 @@ def split_line(text: str) -> tuple[str, list[str], str, bool]:
 
 
 def _split_free(text: str) -> tuple[str, list[str], str, bool]:
-    parts = [part.strip() for part in text.split(",")]
+    parts = _SEPARATOR.split(text.strip())
     head = parts[0]
     large = head[-1:] == "*" or head[:1] == "*"
     last = 5 if large else 9

@@ -35,83 +35,15 @@ DEFAULTS: dict[str, Value] = {
 
 # Printing, files, checks: nothing to do with the answer.
 WITHOUT_EFFECT = frozenset(
-    [
-        "AUTOMSET",
-        "BAILOUT",
-        "CHECKOUT",
-        "CSEID",
-        "DBALL",
-        "DBDICT",
-        "DDRMM",
-        "ERROR",
-        "EXTOUT",
-        "GEOMCHECK",
-        "GRAVDIR",
-        "GRAVFELD",
-        "GPECT",
-        "HDF5",
-        "IRES",
-        "KDAMPFE",
-        "LANGLE",
-        "LGDISP",
-        "LINC",
-        "MAXLINES",
-        "MODACC",
-        "MPCX",
-        "NASPRT",
-        "NEWSEQ",
-        "NLINES",
-        "NOCOMPS",
-        "NOELOF",
-        "NOELOP",
-        "NOGPF",
-        "NT",
-        "OEE",
-        "OELMOPT",
-        "OGEOM",
-        "OGPS",
-        "OMACHPR",
-        "OMAXR",
-        "OMID",
-        "OPGEOM",
-        "OPPHIPB",
-        "OPTEXIT",
-        "OSWELM",
-        "OSWPPT",
-        "OUGCORD",
-        "OUNIT2",
-        "PATVER",
-        "PBAA",
-        "PBHH",
-        "PDRG",
-        "PRFMODES",
-        "PRGPST",
-        "PRINT",
-        "PROUT",
-        "PRPA",
-        "PRPHIVZ",
-        "PRPJ",
-        "PRTMAXIM",
-        "RESPATH",
-        "RMCSET",
-        "S1G",
-        "S1M",
-        "SEMAP",
-        "SESDAMP",
-        "SIGMA",
-        "STRESS",
-        "TABID",
-        "TABS",
-        "TESTNEG",
-        "TINY",
-        "UNITSYS",
-        "UNSYMF",
-        "USETPRT",
-        "USETSEL",
-        "USETSTR1",
-        "XFLAG",
-        "XYUNIT",
-    ]
+    """
+    AUTOMSET BAILOUT CHECKOUT CSEID DBALL DBDICT DDRMM ERROR EXTOUT GEOMCHECK
+    GRAVDIR GRAVFELD GPECT HDF5 IRES KDAMPFE LANGLE LGDISP LINC MAXLINES MODACC MPCX
+    NASPRT NEWSEQ NLINES NOCOMPS NOELOF NOELOP NOGPF NT OEE OELMOPT OGEOM OGPS
+    OMACHPR OMAXR OMID OPGEOM OPPHIPB OPTEXIT OSWELM OSWPPT OUGCORD OUNIT2 PATVER
+    PBAA PBHH PDRG PRFMODES PRGPST PRINT PROUT PRPA PRPHIVZ PRPJ PRTMAXIM RESPATH
+    RMCSET S1G S1M SEMAP SESDAMP SIGMA STRESS TABID TABS TESTNEG TINY UNITSYS UNSYMF
+    USETPRT USETSEL USETSTR1 XFLAG XYUNIT
+    """.split()
 )
 
 

@@ -21,6 +21,8 @@ ALIASES: dict[str, str] = {
     "ASET1": "ASET",
     "BSET": "ASET",  # a-set with fixed boundary, as reductions here take all of it
     "BSET1": "ASET",
+    "BNDFIX": "ASET",
+    "BNDFIX1": "ASET",
     "PBARL": "PBAR",  # section properties are computed while reading
     "PBEAML": "PBEAM",
     "PCOMPG": "PCOMP",
@@ -108,6 +110,7 @@ COLUMNS: dict[str, str] = {
     "FORCE2": "sid g f g1 g2 g3 g4",
     "MOMENT2": "sid g m g1 g2 g3 g4",
     "SLOAD": "sid id f",
+    "PLOAD": "sid p g1 g2 g3 g4",
     "PLOAD1": "sid eid type scale x1 p1 x2 p2",
     "PLOAD2": "sid p eids*",
     "PLOAD4": "sid eids* p1 p2 p3 p4 g1 g34 cid n1 n2 n3 sorl ldir",

@@ -143,32 +143,10 @@ def _kinds() -> dict[str, dict[str, str]]:
 
 
 _INTEGERS = frozenset(
-    [
-        "line",
-        "id",
-        "eid",
-        "pid",
-        "mid",
-        "sid",
-        "tid",
-        "cid",
-        "rid",
-        "g",
-        "g0",
-        "g1",
-        "g2",
-        "g3",
-        "g4",
-        "g34",
-        "c1",
-        "c2",
-        "form",
-        "gn",
-        "refgrid",
-        "mcid",
-        "delayid",
-        "extrap",
-    ]
+    """
+    line id eid pid mid sid tid cid rid g g0 g1 g2 g3 g4 g34 c1 c2 form gn refgrid
+    mcid delayid extrap
+    """.split()
 )
 _KINDS = _kinds()
 

@@ -1,4 +1,4 @@
-"""PLOAD2 and PLOAD4: pressure on shells and on faces of solids.
+"""PLOAD, PLOAD2, PLOAD4: pressure on areas, on shells and on faces of solids.
 
 Positive pressure acts along the normal of a shell (right-hand rule round its grids)
 and into a solid, unless PLOAD4 gives a direction.
@@ -74,6 +74,19 @@ class _Collected:
         )
 
 
+def pload(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Float64]:
+    """Rows of the g-set and values of PLOAD cards: areas between grids."""
+    corners = rows[["g1", "g2", "g3", "g4"]].to_numpy(np.int64)
+    pressure = rows["p"].to_numpy(np.float64)
+    found = {3: _Collected(), 4: _Collected()}
+    for n, chosen in ((3, corners[:, 3] == 0), (4, corners[:, 3] != 0)):
+        grids = corners[chosen, :n]
+        along = np.full((len(grids), 3), np.nan)
+        sizes = np.repeat(pressure[chosen, None], n, axis=1)
+        found[n].add(grids, np.zeros_like(grids), sizes, along)
+    return _forces(points, found)
+
+
 def pload2(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Float64]:
     """Rows of the g-set and values of PLOAD2 cards."""
     rows = rows.assign(
@@ -113,6 +126,11 @@ def _pressure(
         _add_solids(deck.cards[name], name, loads, points, found, problems, card)
     if problems:
         raise InputError(problems)
+    return _forces(points, found)
+
+
+def _forces(points: Points, found: dict[int, _Collected]) -> tuple[Int64, Float64]:
+    """Forces on all faces as terms of the g-set."""
     parts = [face_forces(points, found[n].faces(n)) for n in (3, 4)]
     at = np.concatenate([part[0] for part in parts])
     forces = np.concatenate([part[1] for part in parts])

@@ -12,7 +12,7 @@ from fem.errors import InputError
 from fem.loads.bar_loads import bar_loads
 from fem.loads.concentrated import CONCENTRATED
 from fem.loads.inertial import ACCELERATIONS, accelerations
-from fem.loads.pressure import pload2, pload4
+from fem.loads.pressure import pload, pload2, pload4
 from fem.points import Points
 
 if TYPE_CHECKING:
@@ -21,7 +21,12 @@ if TYPE_CHECKING:
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
-_ON_ELEMENTS = {"PLOAD1": bar_loads, "PLOAD2": pload2, "PLOAD4": pload4}
+_ON_ELEMENTS = {
+    "PLOAD": pload,
+    "PLOAD1": bar_loads,
+    "PLOAD2": pload2,
+    "PLOAD4": pload4,
+}
 CARDS = (*CONCENTRATED, *_ON_ELEMENTS, *ACCELERATIONS)
 
 

@@ -36,8 +36,12 @@ def _orientation(columns: Columns, problems: Problems) -> None:
 
 
 def _beam(columns: Columns, problems: Problems) -> None:
-    """OFFT is a name; a number there is BIT, which belongs to p-elements."""
+    """OFFT is a name; a real number there is BIT, which belongs to p-elements.
+
+    Old decks have a flag there: 1 for a vector, 2 for a grid in the fields before it.
+    """
     _orientation(columns, problems)
+    columns["offt"] = ["GGG" if o in ("1", "2") else o for o in columns["offt"]]
     for row, offt in enumerate(columns["offt"]):
         try:
             real(offt)

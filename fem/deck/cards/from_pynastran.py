@@ -23,24 +23,9 @@ _STATIONS = {
     "nsms": "nsm",
     **{f"{p}{k}s": f"{p}{k}" for p in "cdef" for k in (1, 2)},
 }
-_ENDS = [
-    "k1",
-    "k2",
-    "s1",
-    "s2",
-    "nsia",
-    "nsib",
-    "cwa",
-    "cwb",
-    "m1a",
-    "m2a",
-    "m1b",
-    "m2b",
-    "n1a",
-    "n2a",
-    "n1b",
-    "n2b",
-]
+_ENDS = """
+    k1 k2 s1 s2 nsia nsib cwa cwb m1a m2a m1b m2b n1a n2a n1b n2b
+""".split()
 
 
 def _pbeam(card: Any) -> Rows:

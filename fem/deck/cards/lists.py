@@ -179,6 +179,7 @@ READERS: dict[str, Callable[[Fields], Rows]] = {
     "SPC1": _spc1,
     "ASET1": _set1,
     "BSET1": _set1,
+    "BNDFIX1": _set1,
     "QSET1": _set1,
     "SPCADD": _add,
     "MPCADD": _add,

@@ -111,7 +111,6 @@ def test_symmetric_dmig_is_completed(read):
         ("TSTEP,1,10,-1.", ["expected positive"]),
         ("FORCE,5,99,,1.,1.", ["FORCE 5: grid 99"]),
         ("PLOAD1,5,77,FX,FR,0.,1.", ["PLOAD1 5: element (CBAR, CBEAM) 77"]),
-        ("LOAD,7,1.,1.,55", ["LOAD 7: FORCE set 55"]),
         (
             "CORD2R,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2R,2,1,0.,0.,0.,0.,0.,1.\n"
             ",1.,0.,0.",
@@ -127,6 +126,16 @@ def test_faults_say_where_what_and_what_was_expected(read, bulk, messages):
     text = "\n".join(caught.value.problems)
     for message in messages:
         assert message in text
+
+
+def test_sets_that_a_selected_combination_lacks_are_named(read):
+    bulk = "LOAD,7,1.,1.,55\nLOAD,8,1.,1.,56\nSPCADD,9,1,57\n"
+    with pytest.raises(InputError) as caught:
+        read(bulk, case="LOAD = 7\nSPC = 9")
+    text = str(caught.value)
+    assert "LOAD 7: FORCE set 55 is not defined" in text
+    assert "SPCADD 9: SPC set 57 is not defined" in text
+    assert "56" not in text
 
 
 def test_all_unsupported_cards_are_listed_at_once_and_can_be_ignored(read):

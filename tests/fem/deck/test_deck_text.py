@@ -82,6 +82,31 @@ def test_continuations_find_their_card_by_mnemonic():
     assert (first[9], second[9]) == ("11", "22")
 
 
+def test_blanks_separate_free_fields_too():
+    (fields,) = cards("PSHEAR, 401     1       1.0     0.5, 1.,30.$ comment")
+    assert fields == ["PSHEAR", "401", "1", "1.0", "0.5", "1.", "30."]
+
+
+def test_a_comma_beyond_the_first_ten_columns_makes_no_free_field():
+    (fields,) = cards("DEQATN  5       F(A,B)= -B/A\n        +A,B")
+    assert fields[2] == "F(A,B)="
+
+
+def test_replication_copies_and_adds():
+    text = "GRID,1,,0.,.5,0.\n=,*2,=,*(1.5),==\n=(2)\nCBAR    1       1       1\n"
+    text += "=       *1      =       *(2)"
+    made = cards(text)
+    assert [fields[1] for fields in made] == ["1", "3", "5", "7", "1", "2"]
+    assert [float(fields[3]) for fields in made[:4]] == [0.0, 1.5, 3.0, 4.5]
+    assert all(fields[4:] == [".5", "0."] for fields in made[:4])
+    assert made[5] == ["CBAR", "2", "1", "3"]
+
+
+def test_replication_of_what_is_no_number_is_named(read):
+    with pytest.raises(InputError, match=r"a.bdf:11: cannot add 1 to 'X'"):
+        read("PARAM,X,Y\n=,*1\n")
+
+
 def test_too_many_free_fields_are_an_error_not_a_loss(read):
     with pytest.raises(InputError, match=r"a.bdf:10: 10 data fields"):
         read("SPC1,9,123,1,2,3,1,2,3,1,2\n")

@@ -25,6 +25,13 @@ def test_uniform_pressure_on_a_rectangle_goes_to_its_corners(loaded):
         np.testing.assert_allclose(result.at(grid), [0, 0, 7.5, 0, 0, 0], atol=1e-14)
 
 
+def test_pressure_on_an_area_between_grids(loaded):
+    quad = loaded(SQUARE + "PLOAD,1,5.,1,2,3,4\n").at(3)
+    np.testing.assert_allclose(quad[:3], [0, 0, 7.5], atol=1e-14)
+    triangle = loaded(SQUARE + "PLOAD,1,5.,1,4,2\n").at(4)
+    np.testing.assert_allclose(triangle[:3], [0, 0, -5], atol=1e-14)
+
+
 def test_uniform_pressure_on_a_triangle(loaded):
     result = loaded(SQUARE + "CTRIA3,1,1,1,4,2\nPLOAD4,1,1,5.\n")
     for grid in (1, 2, 4):
