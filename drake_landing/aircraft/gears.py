@@ -4,10 +4,10 @@ from typing import Any
 
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.reference_axis import ATTACHMENTS
-from drake_landing.gear import LandingGear
+from drake_landing.gear import TelescopicGear
 
 
-def landing_gears() -> tuple[LandingGear, LandingGear, LandingGear]:
+def landing_gears() -> tuple[TelescopicGear, TelescopicGear, TelescopicGear]:
     """Nose, port main and starboard main gear."""
     data = facts("gears")
     main = data["main"]
@@ -18,8 +18,8 @@ def landing_gears() -> tuple[LandingGear, LandingGear, LandingGear]:
     )
 
 
-def _gear(data: dict[str, Any]) -> LandingGear:
-    return LandingGear(attachment_node=ATTACHMENTS[data["name"]], **data)
+def _gear(data: dict[str, Any]) -> TelescopicGear:
+    return TelescopicGear(attachment_node=ATTACHMENTS[data["name"]], **data)
 
 
 def _port(starboard: dict[str, Any]) -> dict[str, Any]:

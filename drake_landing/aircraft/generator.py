@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from drake_landing.aircraft import con, pre
+from drake_landing.aircraft import con, full, pre
 from drake_landing.aircraft.beams import add_materials
 from drake_landing.aircraft.gears import landing_gears
 from drake_landing.aircraft.mass_elements import add_masses
@@ -40,6 +40,7 @@ class Recipe:
 RECIPES = {
     "con": Recipe(build=con.build_con, topologies=con.TOPOLOGIES, modes=60),
     "pre": Recipe(build=pre.build_pre, topologies=pre.TOPOLOGIES, modes=80),
+    "full": Recipe(build=full.build_full, topologies=full.TOPOLOGIES, modes=80),
 }
 LEVELS = tuple(RECIPES)
 
@@ -48,7 +49,7 @@ def build(level: str = "con", topology: str | None = None) -> AircraftModel:
     """Generates a reference aircraft.
 
     Args:
-        level: `con` or `pre`.
+        level: `con`, `pre` or `full`.
         topology: gear attachment, see the level's builder; default: its first.
 
     Raises:

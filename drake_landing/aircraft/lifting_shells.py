@@ -1,6 +1,7 @@
 """Wings, tails and movables as shells, with their reference nodes tied to the ribs."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -68,7 +69,10 @@ def add_lifting_shells(
                 mirror_of=meshes.get(f"{name}_right"),
             )
             meshes[part] = mesh
-            add_box_elements(model, mesh, box_sizing(name))
+            sizing = replace(
+                box_sizing(name), stringer_bars=density["stringers"] == "bars"
+            )
+            add_box_elements(model, mesh, sizing)
             _tie_ribs(model, reference[part], mesh)
     for side, _ in SIDES:
         _tie_end(model, reference[f"monitor_wing_tip_{side}"], meshes[f"wing_{side}"])

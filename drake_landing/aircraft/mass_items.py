@@ -38,7 +38,7 @@ def fuselage_items(x: Float64, gears: Sequence[LandingGear]) -> MassItems:
     stations, density = np.array(data["line_density"]).T
     nose = [g for g in gears if g.name == "nose"]
     total = data["total"] - sum(g.mass for g in nose)
-    moment = data["total"] * data["x_cg"] - sum(g.mass * g.axle[0] for g in nose)
+    moment = data["total"] * data["x_cg"] - sum(g.mass * g.fitting.cg[0] for g in nose)
     mass, centre = _slices(stations, density, x)
     mass = tilted(mass, centre, total, moment)
     half, bottom, top = fuselage_section(centre).T

@@ -65,8 +65,12 @@ def node_masses(
             together are the airframe.
     """
     lumps: Lumps = {}
+    structure = by_component(structure)
     fuselage = reference["fuselage"]
-    lumps["fuselage"] = _lump(fuselage_items(fuselage.p[:, 0], gears), fuselage)
+    items = fuselage_items(fuselage.p[:, 0], gears)
+    if structure.get("fuselage"):
+        items = less(items, *_arrays(structure["fuselage"]), axis=0, bins=12)
+    lumps["fuselage"] = _lump(items, fuselage)
     for side, sign in SIDES:
         wing = _with_tip(reference, f"wing_{side}", f"monitor_wing_tip_{side}")
         movables = [f"{m}_{side}" for m in ("inner_flap", "outer_flap", "aileron")]
@@ -103,6 +107,7 @@ def mass_table(
 ) -> pd.DataFrame:
     """Mass (kg) and centre (m, B) of every component, elements and lumps together."""
     p = positions(reference)
+    structure = by_component(structure)
     rows = []
     for component in dict.fromkeys([*lumps, *structure]):
         mass, moment = 0.0, np.zeros(3)
@@ -115,6 +120,15 @@ def mass_table(
     return pd.DataFrame(rows, columns=["component", "mass", "x", "y", "z"])
 
 
+def by_component(structure: Structure) -> Structure:
+    """Parts whose names begin with that of a component are put together."""
+    result: dict[str, list[tuple[float, Float64]]] = {}
+    for part, elements in structure.items():
+        component = "fuselage" if part.startswith("fuselage") else part
+        result.setdefault(component, []).extend(elements)
+    return result
+
+
 def positions(reference: Reference) -> dict[int, Float64]:
     """Position of every reference node by id."""
     return {i: p for group in reference.values() for i, p in zip(group.ids, group.p)}
@@ -122,12 +136,10 @@ def positions(reference: Reference) -> dict[int, Float64]:
 
 def gear_mass_centre(gear: LandingGear) -> tuple[float, Float64]:
     """Mass (kg) and centre (3,) (m, B) of an extended gear."""
+    parts = [(part.mass, part.cg) for part in gear.moving_parts.values()]
+    parts.append((gear.fitting.mass, gear.fitting.cg))
     wheels = len(gear.wheel_offsets) * gear.wheel.mass
-    parts = [
-        (gear.fitting.mass, gear.fitting.cg),
-        (gear.piston.mass, gear.piston.cg),
-        (wheels, gear.axle),
-    ]
+    parts += [(wheels, axle) for axle in gear.axles]
     moment = np.sum([m * np.array(p) for m, p in parts], axis=0)
     return gear.mass, moment / gear.mass
 

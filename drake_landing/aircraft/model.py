@@ -71,6 +71,7 @@ class ModelBuilder:
     structure: dict[str, list[tuple[float, Float64]]] = field(default_factory=dict)
     dependent: set[tuple[int, int]] = field(default_factory=set)
     _next: dict[str, int] = field(default_factory=dict)
+    _at: dict[tuple[int, int, int], int] = field(default_factory=dict)
     _properties: dict[str, int] = field(default_factory=dict)
     _per_area: dict[int, float] = field(default_factory=dict)
     _per_length: dict[int, float] = field(default_factory=dict)
@@ -101,8 +102,17 @@ class ModelBuilder:
             if i in self.position:
                 raise ValueError(f"grid {i} of {part} exists already")
             self.position[i] = x
+            self._at[_key(x)] = i
             self.parts.setdefault(part, []).append(i)
             section.add("GRID", i, None, *map(_grid_value, x), wide=True)
+
+    def grid_at(self, p: Float64) -> int:
+        """The last written grid at a position (to 0.1 mm).
+
+        Raises:
+            KeyError: there is none.
+        """
+        return self._at[_key(p)]
 
     def element(self, part: str, card: str, *values: Value) -> int:
         """Writes an element; its id is put in front of the values, and returned."""
@@ -174,7 +184,7 @@ class ModelBuilder:
         Args:
             name: comment, and key.
             bottom: height of the lowest ply's bottom above the grids, m.
-            plies: (material id, thickness in m, mass per area in kg/m²) from the bottom.
+            plies: material id, thickness (m), mass per area (kg/m²); from the bottom.
         """
         if name not in self._properties:
             pid = self.next_id("shells", "property")
@@ -186,6 +196,68 @@ class ModelBuilder:
             section.add("PCOMP", *values)
             self._properties[name] = pid
             self._per_area[pid] = sum(area for _, _, area in plies)
+        return self._properties[name]
+
+    def stiffened_property(
+        self,
+        name: str,
+        material: int,
+        thickness: float,
+        smeared: float,
+        bending: float,
+    ) -> int:
+        """PSHELL of a skin whose stringers are smeared along the material's 1-axis.
+
+        Args:
+            name: comment, and key.
+            material: id of the isotropic material of skin and stringers.
+            thickness: of the skin, m.
+            smeared: stringer area over pitch, m.
+            bending: 12 I/T³ of skin with stringers.
+        """
+        if name not in self._properties:
+            m = next(m for m in facts("materials").values() if m["id"] == material)
+            plane = m["e"] / (1 - m["nu"] ** 2)
+            g11 = plane + m["e"] * smeared / thickness
+            g33 = m["e"] / 2 / (1 + m["nu"])
+            rho = m["rho"] * (1 + smeared / thickness)
+            mid = self.next_id("stiffened skins", "material")
+            values = (g11, m["nu"] * plane, 0.0, plane, 0.0, g33, rho)
+            self.section("Materials").comment(f"{name}, membrane with stringers")
+            self.section("Materials").add(
+                "MAT2", mid, *(float(f"{v:.6g}") for v in values)
+            )
+            pid = self.next_id("shells", "property")
+            section = self.section("Properties of shells")
+            section.comment(f"property {pid}: {name}")
+            t = float(f"{thickness:.5g}")
+            section.add("PSHELL", pid, mid, t, material, bending, material)
+            self._properties[name] = pid
+            self._per_area[pid] = float(f"{rho:.6g}") * t
+        return self._properties[name]
+
+    def frame(self, name: str, origin: Float64, axis: Float64, up: Float64) -> int:
+        """CORD2R of that name with its x-axis along `axis`; returns its id.
+
+        Args:
+            name: comment, and key.
+            origin: (3,) m.
+            axis: (3,) direction of x.
+            up: (3,) direction in the x-z plane.
+        """
+        if name not in self._properties:
+            cid = self.next_id("coordinate systems", "frame")
+            section = self.section("Coordinate systems")
+            section.comment(f"{name}: x along the stringers")
+            x = axis / np.linalg.norm(axis)
+            z = up - (up @ x) * x
+            points = (origin, origin + z / np.linalg.norm(z), origin + x)
+            section.add(
+                *("CORD2R", cid, 0),
+                *(float(np.round(v, 6)) + 0.0 for p in points for v in p),
+                wide=True,
+            )
+            self._properties[name] = cid
         return self._properties[name]
 
     def bar_property(
@@ -202,9 +274,19 @@ class ModelBuilder:
             self._per_length[pid] = density(material) * values[0]
         return self._properties[name]
 
-    def shell(self, part: str, pid: int, nodes: Sequence[int]) -> None:
-        """CQUAD4 or CTRIA3, whose mass is counted in the part's structure."""
-        self.element(part, "CQUAD4" if len(nodes) == 4 else "CTRIA3", pid, *nodes)
+    def shell(
+        self, part: str, pid: int, nodes: Sequence[int], mcid: int | None = None
+    ) -> None:
+        """CQUAD4 or CTRIA3, whose mass is counted in the part's structure.
+
+        Args:
+            part: section.
+            pid: of a shell property.
+            nodes: three or four grids.
+            mcid: coordinate system whose x-axis is the material's 1-axis.
+        """
+        card = "CQUAD4" if len(nodes) == 4 else "CTRIA3"
+        self.element(part, card, pid, *nodes, mcid)
         p = np.array([self.position[i] for i in nodes])
         area, centre = shell_area_centre(p)
         self._count(part, self._per_area[pid] * area, centre)
@@ -278,3 +360,8 @@ def shell_area_centre(p: Float64) -> tuple[float, Float64]:
     if len(p) == 3:
         return float(np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0])) / 2), p.mean(0)
     return float(np.linalg.norm(np.cross(p[2] - p[0], p[3] - p[1])) / 2), p.mean(0)
+
+
+def _key(p: Float64) -> tuple[int, int, int]:
+    x, y, z = np.round(p * 1e4).astype(int)
+    return int(x), int(y), int(z)

@@ -27,6 +27,8 @@ class BoxSizing:
         bending: ratio of the skin's bending stiffness to that of a plain sheet, for
             sandwich skins.
         web_bending: the same for stiffened ribs and spar webs.
+        stringer_bars: stringers as bars; else they are smeared over the skin.
+        smeared_bending: ratio of the bending stiffness of a skin with its stringers.
         material: id.
     """
 
@@ -38,6 +40,8 @@ class BoxSizing:
     stringer_height: float = 0.05
     bending: float = 1.0
     web_bending: float = 1.0
+    stringer_bars: bool = True
+    smeared_bending: float = 20.0
     material: int = 1
 
 
@@ -46,7 +50,7 @@ def add_box_elements(model: ModelBuilder, mesh: BoxMesh, sizing: BoxSizing) -> N
     for first, last in _bays(mesh):
         span = float(mesh.stations.span[[first, last]].mean())
         name = f"{_plain(mesh.part)} bay at {span:.2f} m"
-        _skins(model, mesh, first, last, name, sizing.skin(span), sizing)
+        _skins(model, mesh, first, last, name, span, sizing)
         _webs(model, mesh, first, last, name, sizing.web(span), sizing)
         _stringers(model, mesh, first, last, name, span, sizing)
     for number, station in enumerate(mesh.ribs):
@@ -72,16 +76,35 @@ def _skins(
     first: int,
     last: int,
     name: str,
-    thickness: float,
+    span: float,
     sizing: BoxSizing,
 ) -> None:
-    pid = model.shell_property(
-        f"{name}: skin", sizing.material, thickness, sizing.bending
-    )
+    title, thickness, mcid = f"{name}: skin", sizing.skin(span), None
+    if sizing.stringer is None or sizing.stringer_bars:
+        pid = model.shell_property(title, sizing.material, thickness, sizing.bending)
+    else:
+        width = float(np.linalg.norm(mesh.p[first, -1, 0] - mesh.p[first, 0, 0]))
+        pid = model.stiffened_property(
+            title,
+            sizing.material,
+            thickness,
+            sizing.stringer(span) / width,
+            sizing.smeared_bending,
+        )
+        mcid = _stringer_frame(model, mesh, first, last)
     for j, sign in ((-1, mesh.outward), (0, -mesh.outward)):
         grid = mesh.ids[first : last + 1, :, j]
         for quad in _quads(grid, sign):
-            model.shell(mesh.part, pid, quad)
+            model.shell(mesh.part, pid, quad, mcid)
+
+
+def _stringer_frame(model: ModelBuilder, mesh: BoxMesh, first: int, last: int) -> int:
+    """Axes of the stringers in a bay: along the middle of the box."""
+    middle = mesh.p[[first, last]].mean(axis=(1, 2))
+    up = mesh.p[first, 0, -1] - mesh.p[first, 0, 0]
+    span = mesh.stations.span[first]
+    name = f"{mesh.part} from {span:.2f} m"
+    return model.frame(name, middle[0], middle[1] - middle[0], up)
 
 
 def _webs(
@@ -117,7 +140,7 @@ def _stringers(
 ) -> None:
     rows = mesh.ids.shape[1]
     kinds = []
-    if sizing.stringer is not None:
+    if sizing.stringer is not None and sizing.stringer_bars:
         area, h = sizing.stringer(span) / (rows - 2), sizing.stringer_height
         kinds.append(("stringer", range(1, rows - 1), area, h))
     if sizing.cap is not None:
