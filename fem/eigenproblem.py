@@ -159,7 +159,7 @@ class EigenProblem:
         """The lowest modes, without the first `below`; limit: known (λ, count)."""
         shift = self._base_shift(None if limit is None else limit[0])
         with self._factorize(shift) as factor:
-            lanczos = BlockLanczos(factor.solve, self.mass, block=_block(wanted))
+            lanczos = _lanczos(factor.solve, self.mass, wanted)
             target = wanted if limit is not None else wanted + 1
             for attempt in range(_RANDOM_RESTARTS):
                 pairs = _grow(lanczos, target, self.progress)
@@ -247,7 +247,7 @@ class EigenProblem:
         with factorize(
             self._shifted(shift), kind="symmetric", solver=self.solver
         ) as factor:
-            lanczos = BlockLanczos(factor.solve, self.mass, block=_block(wanted))
+            lanczos = _lanczos(factor.solve, self.mass, wanted)
             chosen = np.zeros(0, dtype=np.intp)
             for attempt in range(_RANDOM_RESTARTS):
                 pairs = _grow_between(lanczos, shift, (low, high), wanted)
@@ -270,9 +270,12 @@ def _not_definite(row: int | None) -> ModesError:
     )
 
 
-def _block(wanted: int) -> int:
-    """Columns per block: small problems need few, large ones profit from many."""
-    return int(np.clip(wanted // 4, 4, 8))
+def _lanczos(
+    solve: Callable[[Float64], Float64], mass: sp.csr_matrix, wanted: int
+) -> BlockLanczos:
+    """An iteration for `wanted` modes: small problems need few columns per block."""
+    block = int(np.clip(wanted // 4, 4, 8))
+    return BlockLanczos(solve, mass, block=block, reserve=4 * wanted + 64)
 
 
 def _grow(lanczos: BlockLanczos, wanted: int, progress: Progress) -> RitzPairs:

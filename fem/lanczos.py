@@ -23,6 +23,8 @@ Float64 = npt.NDArray[np.float64]
 Solve = Callable[[Float64], Float64]
 
 _RANK_TOLERANCE = 1e-10
+# Share of a block's norm below which what the basis leaves of it is cleaned twice.
+_CANCELLATION = 1e-3
 
 
 @dataclass(frozen=True)
@@ -47,16 +49,25 @@ class BlockLanczos:
         solve: x = (K - σ M)⁻¹ b for blocks b (n, k).
         mass: (n, n) sparse M, positive semi-definite.
         block: columns that are iterated together.
+        reserve: vectors that the basis will probably need; their memory is taken only
+            when it is used.
         seed: of the random starting blocks.
     """
 
     def __init__(
-        self, solve: Solve, mass: sp.csr_matrix, *, block: int = 8, seed: int = 0
+        self,
+        solve: Solve,
+        mass: sp.csr_matrix,
+        *,
+        block: int = 8,
+        reserve: int = 64,
+        seed: int = 0,
     ) -> None:
         self._solve = solve
         self._mass = mass
         self._n = len(mass.indptr) - 1
         self._block = min(block, self._n)
+        self._reserved = reserve
         self._random = np.random.default_rng(seed)
         self._basis = np.empty((self._n, 0), order="F")
         self._projected = np.zeros((0, 0))
@@ -84,19 +95,32 @@ class BlockLanczos:
         return self._solve(np.asfortranarray(self._mass @ block))
 
     def _orthonormalise(self, block: Float64) -> tuple[Float64, Float64, Float64]:
-        """Split a block: coefficients in the basis, orthonormal rest, its norms."""
-        basis = self._basis_view()
-        coefficients = np.zeros((self._used, block.shape[1]))
+        """Split a block: coefficients in the basis, orthonormal rest, its norms.
+
+        The three-term recurrence comes first, so that the pass over all of the basis
+        has round-off alone to remove and needs no repetition, as a rule.
+        """
         scale = np.sqrt(np.max(_columns_dot(block, self._mass @ block), initial=0.0))
-        for _ in range(2):
-            part = basis.T @ (self._mass @ block)
-            block = block - basis @ part
-            coefficients += part
-        block, norms = _orthonormal_block(block, self._mass, scale)
-        # Small remainders lose orthogonality to the basis when they are normalised.
-        block = block - basis @ (basis.T @ (self._mass @ block))
-        block, again = _orthonormal_block(block, self._mass, 1.0)
-        return coefficients, block, again @ norms
+        coefficients = np.zeros((self._used, block.shape[1]))
+        near = slice(max(self._used - 2 * block.shape[1], 0), self._used)
+        coefficients[near], rest = self._without(near, block)
+        part, rest = self._without(slice(0, self._used), rest)
+        coefficients += part
+        rest, norms = _orthonormal_block(rest, self._mass, _RANK_TOLERANCE * scale)
+        smallest = np.min(np.linalg.norm(norms, axis=1), initial=scale)
+        if smallest < _CANCELLATION * scale or np.abs(part).max(initial=0) > smallest:
+            # What shrinks once more was round-off.
+            part, rest = self._without(slice(0, self._used), rest)
+            coefficients += part @ norms
+            rest, again = _orthonormal_block(rest, self._mass, 0.1)
+            norms = again @ norms
+        return coefficients, rest, norms
+
+    def _without(self, columns: slice, block: Float64) -> tuple[Float64, Float64]:
+        """Coefficients of a block in columns of the basis, and the rest of it."""
+        basis = self._basis[:, columns]
+        part = basis.T @ (self._mass @ block)
+        return part, block - basis @ part
 
     def _random_block(self, columns: int) -> Float64:
         columns = min(columns, self._n - self._used)
@@ -109,7 +133,7 @@ class BlockLanczos:
     def _reserve(self, columns: int) -> None:
         if self._used + columns <= self._basis.shape[1]:
             return
-        capacity = max(self._used + columns, int(1.5 * self._basis.shape[1]), 64)
+        capacity = max(self._used + columns, 2 * self._basis.shape[1], self._reserved)
         grown = np.empty((self._n, min(capacity, self._n)), order="F")
         grown[:, : self._used] = self._basis_view()
         self._basis = grown
@@ -194,15 +218,24 @@ def _columns_dot(a: Float64, b: Float64) -> Float64:
 
 
 def _orthonormal_block(
-    block: Float64, mass: sp.csr_matrix, scale: float
+    block: Float64, mass: sp.csr_matrix, smallest: float
 ) -> tuple[Float64, Float64]:
     """M-orthonormal basis Q (n, r) of a block and norms R (r, k): block = Q R.
 
-    Directions smaller than a round-off share of `scale` are dropped.
+    Directions with norms below `smallest` are dropped.
     """
+    q, norms = _by_gram_matrix(block, mass, smallest)
+    # The square of the block's condition is lost in the Gram matrix: once more.
+    q, again = _by_gram_matrix(q, mass, 0.1)
+    return q, again @ norms
+
+
+def _by_gram_matrix(
+    block: Float64, mass: sp.csr_matrix, smallest: float
+) -> tuple[Float64, Float64]:
     gram = block.T @ (mass @ block)
     values, vectors = scipy.linalg.eigh(0.5 * (gram + gram.T))
-    keep = values > (_RANK_TOLERANCE * scale) ** 2
+    keep = values > max(smallest**2, float(np.finfo(float).tiny))
     roots = np.sqrt(values[keep])
     inverse = vectors[:, keep] / roots
     return np.asfortranarray(block @ inverse), roots[:, None] * vectors[:, keep].T
