@@ -4,11 +4,13 @@ A is x aft, y to starboard, z up, with the origin of B. For the reference aircra
 are the same. A turn between them is a signed permutation, hence exact.
 """
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
 from drake_landing.case import Axes
-from drake_landing.gear import LandingGear, RigidPart, Vector3
+from drake_landing.gear import LandingGear, RigidPart
 
 Float64 = npt.NDArray[np.float64]
 
@@ -20,14 +22,15 @@ def rotation_AB(axes: Axes) -> Float64:
 
 
 def gear_in_A(gear: LandingGear, R_AB: Float64) -> LandingGear:
-    """A gear whose positions and inertias are given in B, in A."""
-    return gear.model_copy(
-        update={
-            "axle": _turned(R_AB, gear.axle),
-            "fitting": _part_in_A(gear.fitting, R_AB),
-            "piston": _part_in_A(gear.piston, R_AB),
-        }
+    """A gear whose positions, directions and inertias are given in B, in A."""
+    places = {name: _turned(R_AB, getattr(gear, name)) for name in gear.positions}
+    parts = {"fitting": gear.fitting, **gear.moving_parts}
+    turned = {name: _part_in_A(part, R_AB) for name, part in parts.items()}
+    further = tuple(
+        hold.model_copy(update={"directions": _turned(R_AB, hold.directions)})
+        for hold in gear.further_attachments
     )
+    return gear.model_copy(update={**places, **turned, "further_attachments": further})
 
 
 def _unit(axis: str) -> Float64:
@@ -36,9 +39,12 @@ def _unit(axis: str) -> Float64:
     return unit
 
 
-def _turned(R_AB: Float64, vector: Vector3) -> Vector3:
-    x, y, z = (R_AB @ np.array(vector)).tolist()
-    return (x, y, z)
+def _turned(R_AB: Float64, vectors: Any) -> Any:
+    """One vector, or a tuple of them, as tuples."""
+    turned = np.asarray(vectors, dtype=float) @ R_AB.T
+    if turned.ndim == 1:
+        return tuple(turned.tolist())
+    return tuple(tuple(vector) for vector in turned.tolist())
 
 
 def _part_in_A(part: RigidPart, R_AB: Float64) -> RigidPart:

@@ -23,7 +23,7 @@ from pydantic import (
     model_validator,
 )
 
-from drake_landing.gear import LandingGear
+from drake_landing.gear import AnyGear
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 Model = Literal["con", "pre", "full"]
@@ -34,7 +34,7 @@ _SELECTION = r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz)\s*$"
 # The name of a known set, or a list; tags are in parentheses, see `cases_io`.
 Gears = Annotated[
     Annotated[Literal["d150"], Tag("(name)")]
-    | Annotated[tuple[LandingGear, ...], Tag("(list)")],
+    | Annotated[tuple[AnyGear, ...], Tag("(list)")],
     Discriminator(lambda value: "(name)" if isinstance(value, str) else "(list)"),
 ]
 

@@ -130,7 +130,7 @@ def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
     except OSError as error:
         print(f"error: {_os_problem(error)}", file=sys.stderr)
         return 2
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # Drake's checks exit
         if (show := getattr(error, "show", None)) is not None:  # usage, from click
             show(file=sys.stderr)
             return 2
@@ -143,7 +143,7 @@ def _os_problem(error: OSError) -> str:
     return place + (error.strerror or str(error))
 
 
-def _internal_failure(error: Exception) -> int:
+def _internal_failure(error: BaseException) -> int:
     """A bug: one line for the user, the traceback on request."""
     print(
         f"internal failure: {type(error).__name__}: {error}\n"

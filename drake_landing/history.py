@@ -35,13 +35,15 @@ class LandingHistory:
     """One landing.
 
     Attributes:
-        attachment_node: gear name -> grid id.
+        attachment_node: attachment -> grid id. A gear's first attachment has the name
+            of the gear, further ones `<gear>_<name>`.
         wheels: gear name -> its wheels.
-        attachment: gear name -> table with columns `ATTACHMENT`.
+        attachment: attachment -> table with columns `ATTACHMENT`.
         tyre: wheel name -> table with columns `TYRE`.
         strut: gear name -> table with columns `STRUT`.
         monitoring: point name -> acceleration, columns `POINT`, in B.
         motion: columns qw qx qy qz px py pz: R_WA and p_WG (m) of the airframe.
+        bodies: body of the gears -> (t, 7) quaternion and position (m) in W.
         amplitudes: (t, n) modal amplitudes of the modal body.
         energy: J; columns kinetic and strain of the airframe, gears, struts, tyres,
             dissipated, and `balance`: their sum less its value at the start.
@@ -55,6 +57,7 @@ class LandingHistory:
     strut: dict[str, pd.DataFrame]
     monitoring: dict[str, pd.DataFrame]
     motion: pd.DataFrame
+    bodies: dict[str, Float64]
     amplitudes: Float64
     energy: pd.DataFrame
     figures: dict[str, float] = field(default_factory=dict)
@@ -84,18 +87,20 @@ class LandingHistory:
 def gear_peaks(run: str, history: LandingHistory) -> pd.DataFrame:
     """Columns run, gear, quantity, peak, time: values of largest magnitude, SI.
 
-    Tyre quantities are sums over the wheels of a gear.
+    Tyre quantities are sums over the wheels of a gear. A gear's further attachments
+    have rows of their own.
     """
     rows = []
-    for gear in history.attachment:
-        series = {
-            "tyre_vertical": history.leg(gear, "vertical"),
-            "tyre_drag": history.leg(gear, "drag"),
-            "stroke": history.strut[gear]["stroke"],
-        }
-        for column in ATTACHMENT:
-            series[f"attachment_{column}"] = history.attachment[gear][column]
+    for attachment, loads in history.attachment.items():
+        series = {f"attachment_{column}": loads[column] for column in ATTACHMENT}
+        if attachment in history.strut:
+            gear = {
+                "tyre_vertical": history.leg(attachment, "vertical"),
+                "tyre_drag": history.leg(attachment, "drag"),
+                "stroke": history.strut[attachment]["stroke"],
+            }
+            series = {**gear, **series}
         for quantity, values in series.items():
             at = values.abs().idxmax()
-            rows.append([run, gear, quantity, float(values[at]), float(at)])
+            rows.append([run, attachment, quantity, float(values[at]), float(at)])
     return pd.DataFrame(rows, columns=["run", "gear", "quantity", "peak", "time"])

@@ -33,15 +33,16 @@ class Aircraft:
 
     @property
     def attachment_nodes(self) -> tuple[int, ...]:
-        """Grid of each gear."""
-        return tuple(gear.attachment_node for gear in self.gears)
+        """Grids of all gears."""
+        return tuple(node for gear in self.gears for node in gear.attachments.values())
 
     @property
     def nodes(self) -> dict[int, str]:
         """Grids that must exist -> what for."""
         wanted = {g: f"monitoring point {name}" for name, g in self.monitoring.items()}
         for gear in self.gears:
-            wanted[gear.attachment_node] = f"attachment node of gear {gear.name}"
+            for name, node in gear.attachments.items():
+                wanted[node] = f"attachment node of gear {name}"
         return {**dict.fromkeys(self.interface, "interface grid"), **wanted}
 
 

@@ -22,6 +22,7 @@ from drake_landing.handover import distinct_instants
 from drake_landing.history import ATTACHMENT, POINT, STRUT, TYRE, LandingHistory
 from drake_landing.initial_state import angular_velocity, attitude, set_initial_state
 from drake_landing.progress import Reporter, Silent
+from fem.errors import InputError
 from systems.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
@@ -46,12 +47,18 @@ def build_landing(
         gears: in B, as in the case.
         monitoring: point -> grid id.
         R_AB: (3, 3).
+
+    Raises:
+        InputError: the gears cannot be built or held as they are described.
     """
-    return MakeLandingDiagram(
-        body,
-        [gear_in_A(gear, R_AB) for gear in gears],
-        monitor_nodes=list(monitoring.values()),
-    )
+    try:
+        return MakeLandingDiagram(
+            body,
+            [gear_in_A(gear, R_AB) for gear in gears],
+            monitor_nodes=list(monitoring.values()),
+        )
+    except ValueError as error:
+        raise InputError(f"gears: {error}") from None
 
 
 def fly(
@@ -161,14 +168,15 @@ def _history(
     def table(values: Float64, columns: Sequence[str]) -> pd.DataFrame:
         return pd.DataFrame(values, columns=list(columns), index=index)
 
+    attachments = {n: g for gear in landing.gears for n, g in gear.attachments.items()}
     loads = signal("attachment.load_in_airframe_axes").reshape(len(keep), -1, 2, 3)
     points = signal("airframe.monitor_acceleration").reshape(len(keep), -1, 2, 3)
     return LandingHistory(
-        attachment_node={gear.name: gear.attachment_node for gear in landing.gears},
+        attachment_node=attachments,
         wheels={gear.name: gear.wheel_names for gear in landing.gears},
         attachment={
-            gear.name: table((loads[:, i] @ R_AB).reshape(len(keep), 6), ATTACHMENT)
-            for i, gear in enumerate(landing.gears)
+            name: table((loads[:, i] @ R_AB).reshape(len(keep), 6), ATTACHMENT)
+            for i, name in enumerate(attachments)
         },
         tyre={
             wheel: table(_tyre(landing, signal, gear.name, wheel), TYRE)
@@ -176,7 +184,15 @@ def _history(
             for wheel in gear.wheel_names
         },
         strut={
-            gear.name: table(_strut(landing, signal, gear.name), STRUT)
+            gear.name: table(
+                np.hstack(
+                    [
+                        signal(f"strut_{gear.name}.strut"),
+                        signal(f"shock_absorber_{gear.name}.force"),
+                    ]
+                ),
+                STRUT,
+            )
             for gear in landing.gears
         },
         monitoring={
@@ -184,6 +200,7 @@ def _history(
             for i, point in enumerate(monitoring)
         },
         motion=table(signal("airframe.pose"), _POSE),
+        bodies=_body_poses(landing, signal("plant.state")),
         amplitudes=signal("airframe.modal_amplitudes"),
         energy=_energy(landing, signal, index),
         figures=figures,
@@ -201,12 +218,23 @@ def _tyre(landing: LandingDiagram, signal, gear: str, wheel: str) -> Float64:
     return np.column_stack([contact, -rate])
 
 
-def _strut(landing: LandingDiagram, signal, gear: str) -> Float64:
-    """Columns `STRUT`."""
-    joint, state = landing.bodies[gear].strut, signal("plant.state")
-    rate = state[:, landing.plant.num_positions() + joint.velocity_start()]
-    force = signal(f"shock_absorber_{gear}.force")
-    return np.column_stack([state[:, joint.position_start()], rate, force])
+def _body_poses(landing: LandingDiagram, states: Float64) -> dict[str, Float64]:
+    """(t, 7) quaternion and position in W of every body of the gears."""
+    plant = landing.plant
+    context = plant.CreateDefaultContext()
+    bodies = [
+        body
+        for gear in landing.bodies.values()
+        for body in (gear.fitting, *gear.parts.values(), *gear.wheels.values())
+    ]
+    found = {body.name(): np.empty((len(states), 7)) for body in bodies}
+    for i, state in enumerate(states):
+        plant.SetPositionsAndVelocities(context, state)
+        for body in bodies:
+            pose = plant.EvalBodyPoseInWorld(context, body)
+            found[body.name()][i, :4] = pose.rotation().ToQuaternion().wxyz()
+            found[body.name()][i, 4:] = pose.translation()
+    return found
 
 
 def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:

@@ -26,7 +26,7 @@ from pydrake.math import RigidTransform, RotationMatrix
 
 from drake_landing.axes import gear_in_A, rotation_AB
 from drake_landing.gear import LandingGear
-from drake_landing.gear_bodies import strut_axis
+from drake_landing.gear_pictures import rods
 from drake_landing.results import write_aside
 from drake_landing.skeleton import Skeleton
 from systems.rotations import exp
@@ -201,73 +201,60 @@ def _gear(
     motion: Motion,
     factor: float,
 ) -> None:
-    """Cylinder, piston and wheels; frames parallel to A at the undeformed gear."""
+    """Bodies of a gear, moved with the enlarged deformation of its attachment node."""
     body, history = result.airframe.body, result.history
     row = body.rows(gear.attachment_node)[0]
-    root = f"/gears/{gear.name}"
-    axle, up = np.array(gear.axle) - body.p_BN[row], strut_axis(gear)
-    reach = -axle @ up  # from the attachment down to the axle, along the strut
     radius = 0.16 * gear.tyre.radius
-    upper, lower = axle + 1.0 * reach * up, axle + 0.45 * reach * up
-    _rod(meshcat, f"{root}/cylinder", np.zeros(3), upper, 0.7 * radius, _STRUT)
-    _rod(meshcat, f"{root}/cylinder_low", upper, lower, radius, _STRUT)
-    _rod(meshcat, f"{root}/piston/rod", lower, axle, 0.7 * radius, _PISTON)
-    offsets = gear.wheel_offsets
-    side = np.array([0.0, 1.0, 0.0])
-    ends = [axle + o * side for o in (min(0, *offsets, 0), max(0, *offsets, 0))]
-    if len(offsets) > 1:
-        _rod(meshcat, f"{root}/piston/axle", *ends, 0.6 * radius, _PISTON)
-    for name, offset in zip(gear.wheel_names, offsets):
-        _wheel(meshcat, f"{root}/piston/{name}", axle + offset * side, gear.tyre.radius)
-    stroke = np.interp(motion.time, history.time, history.strut[gear.name]["stroke"])
+    for i, rod in enumerate(rods(gear, body.p_BN[row])):
+        color = _PISTON if rod.bright else _STRUT
+        path = f"/gears/{rod.body}/rod_{i}"
+        _rod(meshcat, path, rod.start, rod.end, rod.thickness * radius, color)
+    for wheel in gear.wheel_names:
+        _wheel(meshcat, f"/gears/{wheel}_wheel", gear.tyre.radius)
+        _load(meshcat, animation, result, gear, wheel, motion)
+    seen = {
+        name: _poses_at(history.time, poses, motion)
+        for name, poses in history.bodies.items()
+        if name.startswith(f"{gear.name}_")
+    }
     for i, amplitudes in enumerate(motion.amplitudes):
         bend = factor * (body.translation[row] @ amplitudes)
         turn = exp(factor * (body.rotation[row] @ amplitudes)[None])[0]
         p = motion.p[i] + motion.R[i] @ (body.p_BN[row] - body.p_BG + bend)
-        X = RigidTransform(
-            RotationMatrix.ProjectToRotationMatrix(motion.R[i] @ turn), p
-        )
-        animation.SetTransform(i, root, X)
-        animation.SetTransform(i, f"{root}/piston", RigidTransform(stroke[i] * up))
-    for name in gear.wheel_names:
-        _spin(animation, result, f"{root}/piston/{name}/turning", name, motion)
-        place = f"{root}/piston/{name}/load"
-        _load(meshcat, animation, result, place, gear, name, motion)
+        R = RotationMatrix.ProjectToRotationMatrix(motion.R[i] @ turn)
+        shift = RigidTransform(R, p) @ seen[f"{gear.name}_fitting"][i].inverse()
+        for name, poses in seen.items():
+            animation.SetTransform(i, f"/gears/{name}", shift @ poses[i])
+        for wheel in gear.wheel_names:
+            at = (shift @ seen[f"{wheel}_wheel"][i]).translation()
+            animation.SetTransform(i, f"/loads/{wheel}", RigidTransform(at))
 
 
-def _wheel(meshcat: Meshcat, path: str, centre: Float64, radius: float) -> None:
+def _poses_at(time: Float64, poses: Float64, motion: Motion) -> list[RigidTransform]:
+    """Poses of a body at the frames; (t, 7) quaternion and position over time."""
+    nearest = np.clip(np.searchsorted(time, motion.time), 0, len(time) - 1)
+    found = []
+    for i, row in enumerate(poses[nearest]):
+        p = [row[4] + motion.distance[i], *row[5:]]
+        found.append(RigidTransform(RotationMatrix(_rotation(row[:4])), p))
+    return found
+
+
+def _wheel(meshcat: Meshcat, path: str, radius: float) -> None:
+    """A tyre, and a cross that shows that it turns."""
     width = 0.55 * radius
     across = RigidTransform(RotationMatrix.MakeXRotation(np.pi / 2), np.zeros(3))
-    meshcat.SetTransform(path, RigidTransform(centre))
-    turning = f"{path}/turning"
-    meshcat.SetObject(f"{turning}/tyre", Cylinder(radius, width), _TYRE)
-    meshcat.SetTransform(f"{turning}/tyre", across)
+    meshcat.SetObject(f"{path}/tyre", Cylinder(radius, width), _TYRE)
+    meshcat.SetTransform(f"{path}/tyre", across)
     for i, (x, z) in enumerate(((1.5, 0.16), (0.16, 1.5))):
         spoke = Box(x * radius, 1.04 * width, z * radius)
-        meshcat.SetObject(f"{turning}/spoke_{i}", spoke, _SPOKE)
-
-
-def _spin(
-    animation: MeshcatAnimation,
-    result: "ProcessResult",
-    path: str,
-    wheel: str,
-    motion: Motion,
-) -> None:
-    table = result.history.tyre[wheel]
-    spin, time = table["spin"].to_numpy(), table.index.to_numpy()
-    steps = 0.5 * (spin[1:] + spin[:-1]) * np.diff(time)
-    angle = np.interp(motion.time, time, np.concatenate([[0.0], np.cumsum(steps)]))
-    for i, a in enumerate(angle):  # rolling toward -x is negative about the axle
-        turn = RigidTransform(RotationMatrix.MakeYRotation(-a), np.zeros(3))
-        animation.SetTransform(i, path, turn)
+        meshcat.SetObject(f"{path}/spoke_{i}", spoke, _SPOKE)
 
 
 def _load(
     meshcat: Meshcat,
     animation: MeshcatAnimation,
     result: "ProcessResult",
-    path: str,
     gear: LandingGear,
     wheel: str,
     motion: Motion,
@@ -279,12 +266,11 @@ def _load(
     share = np.interp(motion.time, table.index, table["vertical"]) / max(largest, 1.0)
     size = float(np.ptp(result.airframe.skeleton.p, axis=0).max())
     length, width = 0.09 * size, 0.005 * size
+    path = f"/loads/{wheel}/bar"
     meshcat.SetObject(path, Box(width, width, length), _LOAD)
     for i, s in enumerate(np.maximum(share, 1e-3)):
-        height = gear.tyre.radius + 0.5 * s * length
-        animation.SetTransform(
-            i, path, RigidTransform([1.3 * gear.tyre.radius, 0.0, height])
-        )
+        p = [1.3 * gear.tyre.radius, 0.0, gear.tyre.radius + 0.5 * s * length]
+        animation.SetTransform(i, path, RigidTransform(p))
         animation.SetProperty(i, f"{path}/<object>", "scale", [1.0, 1.0, float(s)])
 
 

@@ -5,7 +5,7 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
     /attachment_loads   time, node_id, load (t, k, 6) as given to the full model, basic
     /multibody/<kind>/<name>   time and value (t, c) with attributes columns, units;
                         kinds: attachment, tyre, strut, monitoring, motion, energy
-    /multibody/modal_amplitudes (t, n)
+    /multibody/modal_amplitudes (t, n); /multibody/bodies/<name> (t, 7) pose in W
     /fe/monitoring/<point>   as above, direct transient
     /airframe           frequency_hz, mass, cg, node_id
     /comparison, /gears   one dataset per column of the CSV tables
@@ -122,6 +122,9 @@ def _write_history(group: h5py.Group, history: LandingHistory) -> None:
     _write_series(group, "motion", history.motion)
     _write_series(group, "energy", history.energy)
     group["modal_amplitudes"] = history.amplitudes
+    for name, poses in history.bodies.items():
+        group[f"bodies/{name}"] = poses
+        group[f"bodies/{name}"].attrs["columns"] = list(history.motion.columns)
 
 
 def _write_series(group: h5py.Group, name: str, table: pd.DataFrame) -> None:

@@ -34,6 +34,7 @@ def history() -> LandingHistory:
         strut={g: table(STRUT) for g in ("nose", "main")},
         monitoring={"tail": table(("x", "y", "z"))},
         motion=table(("qw", "qx", "qy", "qz", "px", "py", "pz")),
+        bodies={"nose_fitting": np.zeros((11, 7))},
         amplitudes=np.zeros((11, 2)),
         energy=table(("airframe", "balance")),
     )
