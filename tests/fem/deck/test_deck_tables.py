@@ -135,7 +135,7 @@ def test_sets_that_a_selected_combination_lacks_are_named(read):
     text = str(caught.value)
     assert "LOAD 7: FORCE set 55 is not defined" in text
     assert "SPCADD 9: SPC set 57 is not defined" in text
-    assert "56" not in text
+    assert "set 56" not in text
 
 
 def test_all_unsupported_cards_are_listed_at_once_and_can_be_ignored(read):
