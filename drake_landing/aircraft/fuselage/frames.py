@@ -1,50 +1,36 @@
-"""Frames: rings of bars on grids of their own along the frames' neutral axis.
-
-Each grid of a frame follows the skin's grid outside of it rigidly.
-"""
+"""Frames: rings of bars inside the skin, offset to the frames' neutral axis."""
 
 import numpy as np
 
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
-from drake_landing.aircraft.geometry import Float64, Int64
+from drake_landing.aircraft.geometry import Float64
 
 FRAMES = "fuselage frames"
-Rings = dict[int, Int64]
 
 
-def add_frames(hull: Hull) -> Rings:
-    """Writes all frames.
-
-    Returns:
-        Row of a frame -> (n + 1, 2) twins of its grids, 0 where it is interrupted.
-    """
-    return {
-        row: _frame(hull, row, hull.rows.names[number])
-        for row, number in enumerate(hull.rows.frame)
-        if number >= 0
-    }
+def add_frames(hull: Hull) -> None:
+    """Writes all frames, interrupted where openings leave no skin."""
+    for row, number in enumerate(hull.rows.frame):
+        if number >= 0:
+            _frame(hull, row, hull.rows.names[number])
 
 
-def _frame(hull: Hull, row: int, name: str) -> Int64:
-    halves = hull.halves
+def _frame(hull: Hull, row: int, name: str) -> None:
     profile, depth = _kind(name)
-    segments = _segments(hull, row)
-    used = np.zeros(hull.lines.count + 1, bool)
-    used[:-1] |= segments
-    used[1:] |= segments
     inward = -_normals(hull.lines.p[row])
-    ring = np.zeros((len(used), 2), np.int64)
-    ring[used] = halves.grids(FRAMES, (hull.lines.p[row] + inward * depth / 2)[used])
-    for line in np.flatnonzero(used):
-        halves.follow(FRAMES, hull.at(row, line), ring[line])
-    pid = halves.profile(profile)
-    for line in np.flatnonzero(segments):
+    pid = hull.halves.profile(profile)
+    for line in np.flatnonzero(_segments(hull, row)):
         radial = inward[line] + inward[line + 1]
-        halves.bar(
-            FRAMES, pid, ring[line], ring[line + 1], radial / np.linalg.norm(radial)
+        radial /= np.linalg.norm(radial)
+        hull.halves.bar(
+            FRAMES,
+            pid,
+            hull.at(row, line),
+            hull.at(row, line + 1),
+            radial,
+            radial * depth / 2,
         )
-    return ring
 
 
 def _kind(name: str) -> tuple[str, float]:

@@ -84,7 +84,7 @@ class Halves:
             self.model.shell(part, pid, left)
 
     def patch(self, part: str, pid: int, grid: Int64) -> None:
-        """Quadrilaterals of a grid of twins (n, m, 2); side 1-2 along the first axis."""
+        """Quadrilaterals of twins (n, m, 2); their side 1-2 is along the first axis."""
         for i in range(grid.shape[0] - 1):
             for j in range(grid.shape[1] - 1):
                 corners = [(i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)]

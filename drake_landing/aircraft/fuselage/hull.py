@@ -118,11 +118,12 @@ def _skin_present(rows: Rows, lines: Lines) -> Bool:
 
 
 def window_rows(rows: Rows) -> list[int]:
-    """Rows of elements with a window: amid each bay that is divided in three or more."""
+    """Rows of elements with a window: amid every bay that has three rows or more."""
     data = facts("fuselage_shell")["windows"]
-    found = []
+    found: list[int] = []
     for bay in range(rows.number(data["first"]), rows.number(data["last"])):
         inside = np.flatnonzero(rows.bay == bay)
         if len(inside) >= 3:
-            found.append(int(inside[len(inside) // 2]))
+            edge = (len(inside) - 1) // 2
+            found += inside[edge : len(inside) - edge].tolist()
     return found

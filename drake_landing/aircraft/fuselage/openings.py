@@ -1,4 +1,4 @@
-"""Longerons along the edges of the belly's and the tail cone's openings."""
+"""Longerons along the edges of openings in belly and tail cone; the crown's strap."""
 
 from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
@@ -17,3 +17,10 @@ def add_opening_edges(hull: Hull) -> None:
     for line, frames in edges:
         rows = hull.rows.between(*frames)
         halves.chain(EDGES, pid, [hull.at(row, line) for row in rows], UP)
+
+
+def add_crown_strap(hull: Hull) -> None:
+    """The splice of the skin panels along the crown."""
+    rows = hull.rows.between(*facts("fuselage_shell")["crown_strap"])
+    strap = hull.halves.profile("stringer")
+    hull.halves.chain(EDGES, strap, [hull.at(row, 0) for row in rows], UP)

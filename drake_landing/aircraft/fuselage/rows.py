@@ -1,6 +1,7 @@
 """Rows of grids along the fuselage: the frames, and divisions of the bays between."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -46,7 +47,7 @@ def fuselage_rows(size: float) -> Rows:
     frames = table("fuselage_frames")
     knots = frames.x.to_numpy()
     x, frame, bay = [knots[:1]], [0], []
-    for k, (a, b) in enumerate(zip(knots, knots[1:])):
+    for k, (a, b) in enumerate(pairwise(knots)):
         each = max(1, round((b - a) / size))
         x.append(a + (b - a) * np.arange(1, each + 1) / each)
         frame += [-1] * (each - 1) + [k + 1]

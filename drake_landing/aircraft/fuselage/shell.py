@@ -14,7 +14,7 @@ from drake_landing.aircraft.fuselage.hull import Hull, make_hull
 from drake_landing.aircraft.fuselage.keel_beam import add_keel_beam
 from drake_landing.aircraft.fuselage.lines import fuselage_lines
 from drake_landing.aircraft.fuselage.nose_bay import add_nose_bay
-from drake_landing.aircraft.fuselage.openings import add_opening_edges
+from drake_landing.aircraft.fuselage.openings import add_crown_strap, add_opening_edges
 from drake_landing.aircraft.fuselage.passenger_floor import (
     PassengerFloor,
     add_passenger_floor,
@@ -58,8 +58,8 @@ def add_fuselage_shell(
     Args:
         model: the bench, reference nodes written.
         reference: the reference nodes.
-        density: `size` of the elements along the fuselage (m) and `lines`, the number of
-            elements round the section between the named lines.
+        density: `size` of the elements along the fuselage (m) and `lines`, the number
+            of elements round the section between the named lines.
         meshes: the lifting surfaces; None: the fuselage alone.
     """
     halves = Halves(model, FIRST_ID)
@@ -75,6 +75,7 @@ def add_fuselage_shell(
     add_keel_beam(hull, fit)
     add_bay_wall(hull, floor, facts("fuselage_shell")["main_bay"]["frames"][1])
     add_opening_edges(hull)
+    add_crown_strap(hull)
     if meshes is not None and fit is not None:
         add_wing_junction(hull, floor, fit)
         join_fin(hull, meshes["fin"])
