@@ -73,7 +73,7 @@ class LandingDiagram:
         energy_budget: None where not asked for.
         loggers: by "<system>.<port>", one sample per integration step; stroke and rate
             of a gear as "strut_<gear>.strut".
-        body, gears, runway: what it was made from.
+        body, gears, runway, gravity: what it was made from.
     """
 
     diagram: Diagram = field(repr=False)
@@ -93,6 +93,7 @@ class LandingDiagram:
     body: ModalBody = field(repr=False)
     gears: tuple[LandingGear, ...]
     runway: Runway
+    gravity: float
 
     def graphviz(self, max_depth: int = 1) -> str:
         """The diagram's picture in the dot language."""
@@ -190,6 +191,7 @@ def MakeLandingDiagram(
         body=body,
         gears=tuple(gears),
         runway=runway,
+        gravity=gravity,
     )
 
 

@@ -40,11 +40,13 @@ def set_initial_state(
     w_B: npt.ArrayLike = (0.0, 0.0, 0.0),
     xy: npt.ArrayLike = (0.0, 0.0),
     clearance: float = 1e-3,
+    height: float | None = None,
 ) -> None:
-    """Undeformed airframe, extended struts, wheels that do not turn.
+    """Undeformed airframe, extended struts, bogies in trim, wheels that do not turn.
 
     The state of gears and airframe is consistent: fittings sit at their nodes and move
-    with them. States of tyres and of the energy budget are set to their defaults.
+    with them. States of tyres and of the energy budget are set to their defaults, and
+    so are all parameters.
 
     Args:
         landing: the diagram and its parts.
@@ -54,9 +56,11 @@ def set_initial_state(
         w_B: (3,) angular velocity in B, rad/s.
         xy: (2,) airframe's centre of gravity over ground, W, m.
         clearance: of the lowest tyre over the runway, m.
+        height: of the airframe's centre of gravity, W, m, in place of a clearance.
 
     Raises:
-        ValueError: clearance is negative, or a wheel lies on its side.
+        ValueError: clearance is negative, a wheel is below the runway, or lies on its
+            side.
     """
     if not clearance >= 0:
         raise ValueError(f"clearance is {clearance} m, expected >= 0")
@@ -70,37 +74,61 @@ def set_initial_state(
         landing.airframe.set_state(
             airframe, p_WG=[x, y, z], quaternion=quaternion, v_WG=v_WG, w_B=w_B
         )
-        _place_gears(landing, context)
+        place_gears(landing, context)
 
-    place(0.0)
-    place(clearance - _lowest_tyre(landing, context))
+    if height is None:
+        place(0.0)
+        place(clearance - min(tyre_clearances(landing, context).values()))
+    else:
+        place(height)
+        _require_above_runway(landing, context)
 
 
-def _place_gears(landing: LandingDiagram, context: Context) -> None:
+def place_gears(landing: LandingDiagram, context: Context) -> None:
+    """Puts the fittings at the airframe's nodes, as the state of the airframe wants.
+
+    Joints of the gears stay as they are.
+    """
     airframe = landing.airframe.GetMyContextFromRoot(context)
     plant, of_plant = landing.plant, landing.plant.GetMyMutableContextFromRoot(context)
-    poses = landing.airframe.GetOutputPort("node_pose").Eval(airframe)
+    poses = landing.airframe.GetOutputPort("node_pose").Eval(airframe).reshape(-1, 12)
     velocities = landing.airframe.GetOutputPort("node_velocity").Eval(airframe)
-    for bodies, pose, velocity in zip(
-        landing.bodies.values(), poses.reshape(-1, 12), velocities.reshape(-1, 6)
-    ):
+    velocities = velocities.reshape(-1, 6)
+    node = 0
+    for gear in landing.gears:
+        fitting, pose, velocity = (
+            landing.bodies[gear.name].fitting,
+            poses[node],
+            velocities[node],
+        )
         R_WF = RotationMatrix(pose[:9].reshape(3, 3))
         V_WF = SpatialVelocity(velocity[:3], velocity[3:])
-        plant.SetFreeBodyPose(of_plant, bodies.fitting, RigidTransform(R_WF, pose[9:]))
-        plant.SetFreeBodySpatialVelocity(of_plant, bodies.fitting, V_WF)
+        plant.SetFreeBodyPose(of_plant, fitting, RigidTransform(R_WF, pose[9:]))
+        plant.SetFreeBodySpatialVelocity(of_plant, fitting, V_WF)
+        node += len(gear.attachments)
 
 
-def _lowest_tyre(landing: LandingDiagram, context: Context) -> float:
-    """Height of the lowest tyre's lowest point over the runway below it, m.
+def _require_above_runway(landing: LandingDiagram, context: Context) -> None:
+    clearances = tyre_clearances(landing, context)
+    wheel = min(clearances, key=lambda name: clearances[name])
+    if clearances[wheel] < 0:
+        raise ValueError(
+            f"wheel {wheel} is {-clearances[wheel]:.4g} m below the runway at the "
+            "start, expected above it: raise the height, or give a clearance"
+        )
+
+
+def tyre_clearances(landing: LandingDiagram, context: Context) -> dict[str, float]:
+    """Height of each tyre's lowest point over the runway below it, m.
 
     Only that point: on a profile its clearance is vertical, not the nearest distance.
     """
     system = landing.wheel_kinematics
     of_system = system.GetMyContextFromRoot(context)
-    heights = []
+    heights = {}
     for name, tire in landing.tires.items():
         wheel = system.GetOutputPort(f"wheel_{name}").Eval(of_system)
         x, y, z, _, _, a_z = wheel[:6].tolist()
         reach = tire.parameters.radius * math.sqrt(1.0 - a_z * a_z)
-        heights.append(z - reach - landing.runway.height(x, y))
-    return min(heights)
+        heights[name] = z - reach - landing.runway.height(x, y)
+    return heights

@@ -51,3 +51,52 @@ def aircraft_gears() -> tuple[LandingGear, ...]:
         _main("main_right", RIGHT_GEAR, 1.0),
     )
     return tuple(read_gear(gear) for gear in data)
+
+
+def changed(gear: LandingGear, **changes) -> LandingGear:
+    """The gear with some of its data replaced, validated again."""
+    return read_gear(gear.model_dump() | changes)
+
+
+def levered_main(name: str = "main_left") -> LandingGear:
+    """A trailing-arm variant of a main gear: the axle behind the pivot."""
+    main = next(gear for gear in aircraft_gears() if gear.name == name)
+    data = main.model_dump()
+    del data["rake_deg"], data["steering_deg"]
+    piston = data.pop("piston")
+    x, y, z = data["axle"]
+    return read_gear(
+        data
+        | {
+            "kind": "levered",
+            "pivot": (x - 0.75, y, z + 0.35),
+            "absorber_upper": (x - 0.35, y, z + 1.75),
+            "absorber_lower": (x - 0.12, y, z + 0.25),
+            "arm": piston | {"cg": (x - 0.3, y, z + 0.15), "inertia": (30, 40, 30)},
+        }
+    )
+
+
+def bogie_main(name: str = "main_left", **pitch) -> LandingGear:
+    """A four-wheel variant of a main gear, with the tyres of the nose gear's size."""
+    main = next(gear for gear in aircraft_gears() if gear.name == name)
+    data = main.model_dump()
+    del data["steering_deg"]
+    x, y, z = data.pop("axle")
+    tyre = data["tyre"] | {"stiffness": 1.0e6, "damping": 1.5e3}
+    damper = {"trim_deg": 8.0, "stiffness": 2e5, "damping": 2e4, "stop_deg": 20.0}
+    return read_gear(
+        data
+        | {
+            "kind": "bogie",
+            "pivot": (x, y, z + 0.1),
+            "axle_positions": ((x - 0.68, y, z), (x + 0.68, y, z)),
+            "tyre": tyre,
+            "wheel": data["wheel"]
+            | {"mass": 105.0, "spin_inertia": 9.0}
+            | {"transverse_inertia": 5.5},
+            "piston": data["piston"] | {"mass": 200.0},
+            "beam": {"mass": 130.0, "cg": (x, y, z + 0.05), "inertia": (4, 40, 40)},
+            "pitch_damper": damper | pitch,
+        }
+    )

@@ -7,6 +7,7 @@ from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorC
 from pydrake.systems.framework import Context
 
 from drake_landing.diagram import LandingDiagram
+from drake_landing.equilibrium import set_static_equilibrium
 from drake_landing.initial_state import set_initial_state
 
 
@@ -32,9 +33,13 @@ def land(
     step: float | None = None,
     accuracy: float = 1e-5,
     scheme: str = "runge_kutta3",
+    rolling: float | None = None,
     **state,
 ) -> Run:
-    """With error control at `accuracy`, or with a fixed `step`, s."""
+    """With error control at `accuracy`, or with a fixed `step`, s.
+
+    Just above the runway, or `rolling` at that speed in static equilibrium.
+    """
     simulator = Simulator(landing.diagram)
     config = SimulatorConfig(
         integration_scheme=scheme,
@@ -45,7 +50,10 @@ def land(
     ApplySimulatorConfig(config, simulator)
     context = simulator.get_mutable_context()
     state.setdefault("v_WG", [-speed, 0.0, -sink_rate])
-    set_initial_state(landing, context, **state)
+    if rolling is None:
+        set_initial_state(landing, context, **state)
+    else:
+        set_static_equilibrium(landing, context, speed=rolling)
     simulator.Initialize()
     simulator.AdvanceTo(duration)
     logs = {name: log.FindLog(context) for name, log in landing.loggers.items()}
