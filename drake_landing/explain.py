@@ -21,7 +21,7 @@ def explain(case: Case) -> str:
         structure = Structure.from_deck(read_deck(aircraft.deck))
         check_nodes(structure, aircraft)
     mass = structure.weight.total
-    x, y, z = structure.weight.center
+    x, y, z = structure.weight.center.round(3) + 0.0  # no minus zero
     gears = sum(gear.mass for gear in aircraft.gears)
     s, run = case.scenario, case.simulation
     energy = 0.5 * (mass + gears) * s.sink_rate**2

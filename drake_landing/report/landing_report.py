@@ -186,7 +186,7 @@ def _tables(result: "ProcessResult") -> Section:
 def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
     case, body, run = result.case, result.airframe.body, result.history.figures
     s, sim, tr = case.scenario, case.simulation, case.transient
-    x, y, z = body.p_BG
+    x, y, z = body.p_BG.round(3) + 0.0  # no minus zero
     last = f" up to {body.frequency[-1]:.2f} Hz" if body.n else ""
     topology = result.aircraft.topology
     return [
