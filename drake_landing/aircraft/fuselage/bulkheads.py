@@ -1,7 +1,7 @@
 """Pressure bulkheads: the flat one behind the nose, the dome before the tail cone.
 
-Each is meshed as a square with rounded sides amid rings, so that all its elements are
-quadrilaterals of about the same size; its rim is the skin's row of grids.
+Each is meshed as a square amid rings, so that all its elements are quadrilaterals of
+about the same size; its rim is the skin's row of grids.
 """
 
 from dataclasses import dataclass
@@ -12,8 +12,7 @@ from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
 from drake_landing.aircraft.geometry import Float64, Int64
 
-_CORE = 0.52  # half size of the inner square over the section's
-_ROUND = 4.0  # exponent of its superelliptic outline
+_SIDE, _CORNER = 0.50, 0.62  # size of the inner square over the section's
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,7 +59,7 @@ def _disc(hull: Hull, part: str, row: int, count: int, dome_radius: float) -> Di
         raise ValueError(f"{n} elements from crown to keel, expected a multiple of 4")
     q = n // 4
     centre = (rim[0] + rim[-1]) / 2 * (1.0, 0.0, 1.0)
-    outline = centre + _core_share(rim - centre)[:, None] * (rim - centre)
+    outline = centre + _square(rim - centre)
     core = _transfinite(outline, q)
     share = np.linspace(0.0, 1.0, count + 1)[1:-1, None, None]
     between = rim + share * (outline - rim)
@@ -78,11 +77,14 @@ def _disc(hull: Hull, part: str, row: int, count: int, dome_radius: float) -> Di
     return Disc(rings=np.concatenate(rings), core=core_ids)
 
 
-def _core_share(arm: Float64) -> Float64:
-    """(n + 1,) size of the square's outline over the rim's, by direction."""
-    angle = np.arctan2(arm[:, 1], arm[:, 2])
-    powers = np.abs(np.cos(angle)) ** _ROUND + np.abs(np.sin(angle)) ** _ROUND
-    return _CORE * powers ** (-1 / _ROUND)
+def _square(arm: Float64) -> Float64:
+    """Arms (n + 1, 3) to the inner square's outline, from those to the rim."""
+    n = len(arm) - 1
+    knots = np.arange(0, n + 1, n // 4)
+    share = np.where(np.arange(5) % 2, _CORNER, _SIDE)
+    at = share[:, None] * arm[knots]
+    columns = [np.interp(np.arange(n + 1), knots, column) for column in at.T]
+    return np.stack(columns, axis=1)
 
 
 def _transfinite(outline: Float64, q: int) -> Float64:

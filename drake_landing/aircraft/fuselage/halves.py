@@ -33,6 +33,15 @@ class Halves:
         self.model = model
         self._first = first_id
         self._next: dict[str, list[int]] = {}
+        self._at: dict[tuple[float, ...], Int64] = {}
+
+    def shared(self, part: str, p: Float64) -> Int64:
+        """As `grids`, but takes the twins that stand at a position already."""
+        twins = []
+        for x in p:
+            found = self._at.get(_key(x))
+            twins.append(self.grids(part, x[None])[0] if found is None else found)
+        return np.array(twins)
 
     def grids(self, part: str, p: Float64) -> Int64:
         """Writes grids of the starboard half and their mirror images.
@@ -58,6 +67,7 @@ class Halves:
         straight = np.where(middle[:, None], flat * (1.0, 0.0, 1.0), flat)
         self.model.grids(part, ids[:, 0].tolist(), straight)
         self.model.grids(part, ids[~middle, 1].tolist(), (straight * MIRROR)[~middle])
+        self._at.update(zip(map(_key, straight), ids))
         return ids.reshape(*np.shape(p)[:-1], 2)
 
     def position(self, twin: Int64) -> Float64:
@@ -147,3 +157,8 @@ class Halves:
         """Shell property of a sheet of al2024."""
         material = facts("materials")["al2024"]["id"]
         return self.model.shell_property(name, material, thickness, bending)
+
+
+def _key(p: Float64) -> tuple[float, ...]:
+    """A position to 0.1 mm."""
+    return tuple((np.round(p, 4) + 0.0).tolist())

@@ -15,7 +15,7 @@ from drake_landing.aircraft.geometry import Int64
 KEEL = "fuselage keel beam"
 
 
-def add_keel_beam(hull: Hull, fit: Fit | None) -> Int64:
+def add_keel_beam(hull: Hull, fit: Fit | None) -> dict[int, Int64]:
     """Writes webs, top and caps.
 
     Args:
@@ -23,7 +23,7 @@ def add_keel_beam(hull: Hull, fit: Fit | None) -> Int64:
         fit: joins it to the wing's lower cover; None: nothing is joined.
 
     Returns:
-        (rows, high + 1, 2) twins of the starboard web, from the skin up.
+        Row -> (high + 1, 2) twins of the web, from the skin up.
     """
     halves, data = hull.halves, facts("fuselage_shell")["keel_beam"]
     rows = list(hull.rows.between(*data["frames"]))
@@ -33,20 +33,31 @@ def add_keel_beam(hull: Hull, fit: Fit | None) -> Int64:
     web, spine = [], []
     for row in rows:
         foot = hull.p(row, line)
-        under_wing = fit is not None and first < row < last
-        z = fit.height("lower", foot[0]) if under_wing else data["top_z"]
+        face, z = None, data["top_z"]
+        if fit is not None and first <= row <= last:
+            face = {first: "front", last: "rear"}.get(row, "lower")
+            z = _under_wing(fit, face, foot[0])
         p = foot + share[:, None] * np.array([0.0, 0.0, z - foot[2]])
         twins = halves.grids(KEEL, p)
         web.append(np.concatenate([hull.at(row, line)[None], twins]))
-        spine.append(halves.grids(KEEL, p[-1:] * (1.0, 0.0, 1.0))[0])
-        if under_wing:
-            fit.to_face(KEEL, twins[-1], "lower")
-            fit.to_face(KEEL, spine[-1], "lower")
+        amid = np.array([[foot[0], 0.0, z]])
+        inside = first < row < last
+        spine.append(twins[-1] if inside else halves.grids(KEEL, amid)[0])
+        if fit is not None and face is not None:
+            fit.to_face(KEEL, twins[-1], face)
+            fit.to_face(KEEL, spine[-1], face)
     grid = np.array(web)
     halves.patch(KEEL, halves.sheet("fuselage keel web", data["web"]), grid)
     top = np.stack([grid[:, -1], np.array(spine)], axis=1)
-    halves.patch(KEEL, halves.sheet("fuselage keel top", data["top"]), top)
+    sheet = halves.sheet("fuselage keel top", data["top"])
+    for stretch in (np.s_[: rows.index(first) + 1], np.s_[rows.index(last) :]):
+        halves.patch(KEEL, sheet, top[stretch])
     cap = halves.profile("keel_cap")
     for edge in (0, -1):
         halves.chain(KEEL, cap, grid[:, edge], UP)
-    return grid
+    return dict(zip(rows, grid))
+
+
+def _under_wing(fit: Fit, face: str, x: float) -> float:
+    """Height of the wing box above the keel: lower cover, or a spar's lower edge."""
+    return fit.height(face, x) if face == "lower" else fit.edges(face)[1]

@@ -72,8 +72,9 @@ def add_fuselage_shell(
     add_cargo_floor(hull)
     add_bulkheads(hull)
     nose_gear = add_nose_bay(hull)
-    add_keel_beam(hull, fit)
-    add_bay_wall(hull, floor, facts("fuselage_shell")["main_bay"]["frames"][1])
+    keel = add_keel_beam(hull, fit)
+    frame = facts("fuselage_shell")["main_bay"]["frames"][1]
+    add_bay_wall(hull, floor, frame, keel[hull.rows.at(frame)])
     add_opening_edges(hull)
     add_crown_strap(hull)
     if meshes is not None and fit is not None:

@@ -4,9 +4,12 @@ At the main frames the spar webs of the centre wing box are the wall; sheets clo
 gaps above, to the floor, and below, to the skin.
 """
 
+from itertools import pairwise
+
 import numpy as np
 
 from drake_landing.aircraft.facts import facts
+from drake_landing.aircraft.fuselage.halves import Halves
 from drake_landing.aircraft.fuselage.hull import Hull
 from drake_landing.aircraft.fuselage.passenger_floor import PassengerFloor
 from drake_landing.aircraft.fuselage.wing_fit import Fit
@@ -57,7 +60,7 @@ def _below_spar(
     heads = p[below].copy()
     heads[:, 2] = bottom
     middles = (heads + p[below]) / 2
-    head, middle = halves.grids(WALLS, heads), halves.grids(WALLS, middles)
+    head, middle = halves.shared(WALLS, heads), halves.shared(WALLS, middles)
     for twin in head:
         fit.to_face(WALLS, twin, face)
     grid = np.array([head, middle, hull.ids[row, below]])
@@ -67,28 +70,69 @@ def _below_spar(
     halves.shell(WALLS, pid, [last, middle[0], grid[2, 0]])
 
 
-def add_bay_wall(hull: Hull, floor: PassengerFloor, frame: str) -> Int64:
+def add_bay_wall(hull: Hull, floor: PassengerFloor, frame: str, keel: Int64) -> None:
     """The wall from the floor to the skin at a frame, with upright stiffeners.
 
-    Returns:
-        (rows, columns, 2) twins, from the floor down, from the centre plane out.
+    Toward the keel, where it is narrow, it has half and a quarter of its columns.
+
+    Args:
+        hull: the skin.
+        floor: the passenger floor.
+        frame: where it stands.
+        keel: twins of the keel's web there, which pass through the wall.
     """
     halves, row = hull.halves, hull.rows.at(frame)
     data = facts("fuselage_shell")["main_bay"]["wall"]
     pid = halves.sheet("fuselage bay wall", data["thickness"], data["bending"])
     beam = floor.beam(row)
     share = np.array([halves.position(t)[1] for t in beam])
-    share = share / share[-1]
-    grid = [np.array(beam)]
-    for line in range(hull.line("floor") + 1, hull.lines.count):
-        edge = hull.p(row, line)
-        p = np.stack([0 * share + edge[0], share * edge[1], 0 * share + edge[2]], 1)
-        twins = halves.grids(WALLS, p[:-1])
-        grid.append(np.concatenate([twins, hull.at(row, line)[None]]))
-    grid.append(np.repeat(hull.at(row, hull.lines.count)[None], len(share), axis=0))
-    wall = np.array(grid)
-    halves.patch(WALLS, pid, wall)
+    lines = range(hull.line("floor") + 1, hull.line("keel"))
+    wall = [dict(enumerate(beam))]
+    for line, stride in zip(lines, _strides(len(lines))):
+        edge, columns = hull.p(row, line), np.arange(0, len(share), stride)
+        p = np.tile(edge, (len(columns), 1))
+        p[:, 1] *= share[columns] / share[-1]
+        twins = [*halves.grids(WALLS, p[:-1]), hull.at(row, line)]
+        wall.append(dict(zip(columns.tolist(), twins)))
+    sheets = [c for upper, lower in pairwise(wall) for c in _strip(upper, lower)]
+    inner, middle, outer = wall[-1].values()
+    foot, bottom = hull.at(row, hull.line("keel")), hull.at(row, hull.lines.count)
+    sheets += [[inner, middle, foot, bottom], [middle, outer, foot]]
+    for corners in sheets:
+        halves.shell(WALLS, pid, corners)
     stiffener = halves.profile("bulkhead_stiffener")
     for column in range(0, len(share) - 1, 2):
-        halves.chain(WALLS, stiffener, wall[:-1, column], _AFT)
-    return wall
+        chain = [upright[column] for upright in wall if column in upright]
+        halves.chain(WALLS, stiffener, chain, _AFT)
+    for twin in keel[1:]:
+        _through(halves, twin, sheets)
+
+
+def _strides(count: int) -> list[int]:
+    """Columns of the floor per column of the wall, from the floor down."""
+    return [1] * (count - 5) + [2] * 3 + [4] * 2
+
+
+def _strip(upper: dict[int, Int64], lower: dict[int, Int64]) -> list[list[Int64]]:
+    """Elements between two rows; the lower may have half of the upper's columns."""
+    sheets = []
+    for a, b in pairwise(lower):
+        if a + (b - a) // 2 in upper and b - a > 1 and len(upper) > len(lower):
+            amid = upper[(a + b) // 2]
+            sheets.append([upper[a], amid, lower[a]])
+            sheets.append([amid, lower[b], lower[a]])
+            sheets.append([amid, upper[b], lower[b]])
+        else:
+            sheets.append([upper[a], upper[b], lower[b], lower[a]])
+    return sheets
+
+
+def _through(halves: Halves, twin: Int64, sheets: list[list[Int64]]) -> None:
+    """A grid of the keel's web moves with the wall's element where it passes it."""
+    middles = [np.mean([halves.position(t) for t in corners], 0) for corners in sheets]
+    distance = np.linalg.norm(np.array(middles) - halves.position(twin), axis=1)
+    around = np.array(sheets[int(np.argmin(distance))])
+    for side in (0, 1):
+        grids = [int(i) for i in around[:, side]]
+        halves.model.average(WALLS, int(twin[side]), grids)
+        halves.hold(int(twin[side]))

@@ -56,8 +56,10 @@ class Fit:
         return float(np.interp(x, line[:, 0], line[:, 2]))
 
     def to_face(self, part: str, twin: Int64, face: str) -> None:
-        """Makes a twin follow the element of the face next to it."""
+        """Makes a twin follow the element of the face next to it, if it is free."""
         halves, where = self._halves, self._faces[face]
+        if halves.held(int(twin[0])):
+            return
         distance = np.linalg.norm(where.middle - halves.position(twin), axis=1)
         k = int(np.argmin(distance.round(9)))
         corners = {0: where.right[k], 1: where.left[k]}
