@@ -4,7 +4,6 @@ The file is written under a temporary name and takes its own when it is complete
 Histories of transients are written while they are computed.
 """
 
-from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -15,6 +14,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.deck.case_control import Selection
+from fem.grid_forces import GridForces
 from fem.observation import Chunk, Quantity
 from fem.points import Points
 from fem.recovery import ElementTable
@@ -89,6 +89,26 @@ class ResultFile:
         group["id"] = table.id
         group.attrs["columns"] = list(table.columns)
         return group
+
+    def write_grid_forces(self, name: str, balance: GridForces) -> None:
+        """The table of a grid point force balance, one dataset per column."""
+        group = self.file.create_group(name)
+        group["grid_id"], group["element_id"] = balance.grid_id, balance.element_id
+        group["source"] = balance.source.astype(h5py.string_dtype())
+        group["force"] = balance.force
+
+    def write_energies(
+        self,
+        name: str,
+        energies: dict[str, tuple[Int64, Float64]],
+        wanted: Int64 | None,
+    ) -> None:
+        """Strain energies by card."""
+        for card, (ids, values) in energies.items():
+            keep = np.full(len(ids), True) if wanted is None else np.isin(ids, wanted)
+            if keep.any():
+                group = self.file.create_group(f"{name}/{card}")
+                group["id"], group["value"] = ids[keep], values[keep]
 
     def point_history(
         self,
@@ -223,8 +243,3 @@ class TableHistory:
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
         """Nothing stays in memory."""
         return 0
-
-
-def table_names(tables: Sequence[ElementTable]) -> list[str]:
-    """Names of tables, for messages."""
-    return [table.table for table in tables]

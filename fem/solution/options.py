@@ -45,3 +45,17 @@ class Options:
     threads: int | None = None
     envelope: bool = False
     console: Console = field(default_factory=Quiet)
+
+
+# What case control may ask for and each solution writes.
+WRITTEN: dict[int, frozenset[str]] = {
+    101: frozenset(
+        {"DISPLACEMENT", "SPCFORCES", "MPCFORCES", "OLOAD", "FORCE", "STRESS"}
+        | {"GPFORCE", "ESE"}
+    ),
+    103: frozenset({"DISPLACEMENT", "SPCFORCES", "FORCE", "STRESS"}),
+    109: frozenset(
+        {"DISPLACEMENT", "VELOCITY", "ACCELERATION", "SPCFORCES", "FORCE", "STRESS"}
+    ),
+}
+WRITTEN[112] = WRITTEN[109]

@@ -9,7 +9,7 @@ from fem.deck.deck import Deck
 from fem.errors import InputError
 from fem.results import ResultFile
 from fem.solution.modes import solve_modes
-from fem.solution.options import Options
+from fem.solution.options import WRITTEN, Options
 from fem.solution.static import solve_statics
 from fem.solution.transient import solve_transients
 from fem.structure import Structure
@@ -48,6 +48,7 @@ def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
         _introduce(structure, options)
         results.write_model(structure)
         for number, subcases in work:
+            _say_what_is_left_out(number, subcases, options)
             _SOLVERS[number](structure, subcases, results, options)
     options.console.say(f"{path} ({perf_counter() - start:.1f} s)")
     return path
@@ -75,6 +76,22 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     if not work:
         raise InputError(f"{deck.path}: no subcases")
     return list(work.items())
+
+
+def _say_what_is_left_out(
+    number: int, subcases: list[Subcase], options: Options
+) -> None:
+    asked = {
+        quantity
+        for subcase in subcases
+        for quantity, selection in subcase.outputs.items()
+        if selection != "NONE"
+    }
+    missing = sorted(asked - WRITTEN[number])
+    if missing:
+        options.console.say(
+            f"notice: output not written in SOL {number}: {', '.join(missing)}"
+        )
 
 
 def _introduce(structure: Structure, options: Options) -> None:

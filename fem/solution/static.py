@@ -7,8 +7,9 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.constraints.elimination import Elimination
-from fem.deck.case_control import Subcase
+from fem.deck.case_control import Selection, Subcase
 from fem.errors import InputError
+from fem.grid_forces import grid_forces, strain_energy
 from fem.linear_solver import SingularMatrixError
 from fem.loads import enforced_displacements, static_load
 from fem.recovery import element_tables
@@ -36,7 +37,7 @@ def solve_statics(
         load, eliminations = _loads(model, group)
         u_g, residual = _solve(model, load, eliminations, options)
         for i, subcase in enumerate(group):
-            _write(model, subcase, u_g[:, i], residual[:, i], results)
+            _write(model, subcase, u_g[:, i], residual[:, i], load[:, i], results)
             largest = np.abs(u_g[:, i]).max(initial=0.0)
             options.console.say(
                 f"statics, subcase {subcase.id}: largest displacement {largest:.7g}"
@@ -125,22 +126,46 @@ def _write(
     subcase: Subcase,
     u_g: Float64,
     residual: Float64,
+    load: Float64,
     results: ResultFile,
 ) -> None:
     name, points, wanted = f"static/{subcase.id}", model.points, subcase.outputs
+    spc_force = model.elimination.spc_force(residual)
+    mpc_force = model.elimination.mpc_force(residual)
     results.write_points(
         f"{name}/displacement", points, u_g, wanted.get("DISPLACEMENT", "ALL")
     )
     results.write_points(
-        f"{name}/spc_force",
-        points,
-        model.elimination.spc_force(residual),
-        wanted.get("SPCFORCES", "ALL"),
+        f"{name}/spc_force", points, spc_force, wanted.get("SPCFORCES", "ALL")
     )
-    if "MPCFORCES" in wanted:
-        force = model.elimination.mpc_force(residual)
-        results.write_points(f"{name}/mpc_force", points, force, wanted["MPCFORCES"])
+    for quantity, label, vector in (
+        ("MPCFORCES", "mpc_force", mpc_force),
+        ("OLOAD", "applied_load", load),
+    ):
+        if wanted.get(quantity, "NONE") != "NONE":
+            results.write_points(f"{name}/{label}", points, vector, wanted[quantity])
+    if wanted.get("GPFORCE", "NONE") != "NONE":
+        balance = grid_forces(
+            points,
+            model.blocks,
+            u_g,
+            load=load,
+            spc_force=spc_force,
+            mpc_force=mpc_force,
+            wanted=_ids(wanted["GPFORCE"]),
+        )
+        results.write_grid_forces(f"{name}/grid_point_force", balance)
+    if wanted.get("ESE", "NONE") != "NONE":
+        energies = strain_energy(points, model.blocks, u_g)
+        results.write_energies(f"{name}/strain_energy", energies, _ids(wanted["ESE"]))
     write_element_results(model, subcase, u_g, results, name)
+
+
+def _ids(selection: Selection) -> npt.NDArray[np.int64] | None:
+    """Ids of a selection, None for all."""
+    if isinstance(selection, str):
+        return None if selection == "ALL" else np.zeros(0, np.int64)
+    return np.fromiter(selection, np.int64)
 
 
 def write_element_results(

@@ -161,6 +161,42 @@ def test_line_elements_with_initial_state_against_nx(run, references):
     )
 
 
+def test_shells_solids_and_bars_in_a_transient_against_nx(run, references, tmp_path):
+    """Displacements, constraint forces, element forces and stresses at 21 times.
+
+    The published results belong to an earlier state of the deck, as their loads and
+    tables show: without springs, damper, shear panel and CONROD.
+    """
+    folder = references / "solid_shell_bar"
+    later = ("CELAS", "PELAS", "CSHEAR", "PSHEAR", "CDAMP2", "CONROD")
+    text = (folder / "transient_solid_shell_bar.bdf").read_text()
+    lines = [line for line in text.splitlines() if not line.startswith(later)]
+    (tmp_path / "geom.inc").write_text((folder / "geom.inc").read_text())
+    file = run("\n".join(lines) + "\n")["transient/1"]
+    other = op2_of(folder / "transient_solid_shell_bar.op2")
+    times = other.displacements[1]._times.round(9)
+    first = np.unique(times, return_index=True)[1]  # the table is there twice
+
+    def agree(ours, theirs, tolerance=1e-5):
+        scale = np.abs(theirs).max(axis=(0, 1))
+        assert np.all(np.abs(ours - theirs) <= tolerance * scale + 1e-12)
+
+    np.testing.assert_allclose(file["time"][:], times[first], atol=1e-8)
+    agree(file["displacement"][:], other.displacements[1].data[first])
+    agree(file["spc_force"][:], other.spc_forces[1].data)
+    force, stress = other.op2_results.force, other.op2_results.stress
+    agree(file["element_force/CBAR/value"][:], force.cbar_force[1].data)
+    agree(file["element_force/CROD/value"][:], force.crod_force[1].data)
+    agree(file["element_force/CTRIA3/value"][:], force.ctria3_force[1].data)
+    centre = force.cquad4_force[1].data[:, ::5]
+    agree(file["element_force/CQUAD4/value"][:], centre)
+    columns = [0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13]
+    agree(
+        file["element_stress/CBAR/value"][:],
+        stress.cbar_stress[1].data[:, :, columns],
+    )
+
+
 BEAM = """\
 SOL {sol}
 CEND
@@ -249,6 +285,43 @@ def test_sets_limit_what_is_written(run):
     assert "velocity" not in group
     assert group["acceleration"].shape[1:] == (3, 6)
     assert group["element_force/CBAR/id"][:].tolist() == [2]
+
+
+def test_grid_point_forces_balance_and_strain_energy_is_the_work(run):
+    case = "SPC=1\nLOAD=10\nGPFORCE=ALL\nESE=ALL\nOLOAD=ALL"
+    group = run(BEAM.format(sol=101, case=case, bulk=""))["static/1"]
+    balance = group["grid_point_force"]
+    source = balance["source"].asstr()[:]
+    force = balance["force"][:]
+    np.testing.assert_allclose(force[source == "*TOTALS*"], 0.0, atol=1e-7)
+    at = (balance["grid_id"][:] == 2) & (source == "CBAR")
+    assert balance["element_id"][at].tolist() == [1, 2]
+    # Bar 1 holds grid 2 against the shear force of the tip load.
+    assert force[at][0, 2] == pytest.approx(-50.0, rel=1e-9)
+    energy = group["strain_energy/CBAR/value"][:].sum()
+    work = 0.5 * (group["displacement"][:] * group["applied_load"][:]).sum()
+    assert energy == pytest.approx(work, rel=1e-9)
+
+
+def test_grid_point_forces_against_nx(run, references):
+    folder = references / "solid_shell_bar"
+    file = run(folder / "static_solid_shell_bar.bdf")
+    theirs = op2_of(folder / "static_solid_shell_bar.op2").grid_point_forces[1]
+    balance = file["static/1/grid_point_force"]
+    ours = {
+        (int(g), int(e)): f
+        for g, e, f in zip(
+            balance["grid_id"][:], balance["element_id"][:], balance["force"][:]
+        )
+        if e
+    }
+    pairs = theirs.node_element.reshape(-1, 2)
+    compared = 0
+    for (grid, element), force in zip(pairs.tolist(), theirs.data[0]):
+        if element and (grid, element) in ours:
+            np.testing.assert_allclose(ours[grid, element], force, atol=0.05)
+            compared += 1
+    assert compared > 60
 
 
 def test_enforced_displacement_and_its_reaction(run):
