@@ -21,6 +21,8 @@ _ITERATIONS = 60
 # moves its largest node by 1 m.
 _LARGEST_STEP = 0.05
 _DIFFERENCE = 1e-7
+# Height that takes all tyres off any runway, m.
+_WELL_CLEAR = 20.0
 # Share of the stroke, and tyre deflection over radius, to start from.
 _STROKE_SHARE, _DEFLECTION_SHARE = 0.6, 0.1
 
@@ -67,9 +69,9 @@ def set_flight_equilibrium(
 ) -> None:
     """Deforms airframe and gears as gravity and lift want them, in steady flight.
 
-    Position, attitude and velocity of the airframe stay; it must not touch the runway
-    nor turn. What the lift at time zero leaves of gravity accelerates the whole, and
-    the deformation is that of such flight.
+    Attitude and velocity of the airframe stay, and the clearance of the lowest tyre;
+    it must not turn. What the lift at time zero leaves of gravity accelerates the
+    whole, and the deformation is that of such flight.
 
     Raises:
         ValueError: the airframe turns, or no state is found.
@@ -80,13 +82,15 @@ def set_flight_equilibrium(
         raise ValueError(
             f"flight equilibrium: angular velocity {x[10:13]} rad/s, expected none"
         )
-    moving = x.copy()
+    velocity = x[7:10].copy()
+    clearance = min(tyre_clearances(landing, context).values())
     x[7:10] = 0.0
+    x[2] += _WELL_CLEAR
     airframe.SetContinuousState(x)
-    rest = _Rest(landing, context, x[:2], None)
-    rest.solve(tolerance)
+    _Rest(landing, context, x[:2], None).solve(tolerance)
     x = airframe.get_continuous_state_vector().CopyToVector()
-    x[7:10] = moving[7:10]
+    x[7:10] = velocity
+    x[2] += clearance - min(tyre_clearances(landing, context).values())
     airframe.SetContinuousState(x)
     place_gears(landing, context)
 

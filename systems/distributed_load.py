@@ -37,8 +37,8 @@ def trimmed_shares(
 ) -> Float64:
     """Shares of parallel forces at nodes, upright in B, whose resultant passes a point.
 
-    The given shares are multiplied by the plane 1 + a + b x + c y that does it, the
-    least change of that kind.
+    The given shares are multiplied by exp(a + b x + c y): of all that do it, those
+    with the least relative entropy; none is negative.
 
     Args:
         p_BN: (k, 3) nodes, x aft and y to starboard, m.
@@ -49,29 +49,39 @@ def trimmed_shares(
         (k,) shares, their sum one.
 
     Raises:
-        ValueError: the nodes cannot do it: they lie on a line past the point, or a
-            share would be negative.
+        ValueError: the nodes do not surround the point.
     """
-    arms = (np.asarray(p_BN, dtype=float) - np.asarray(p_BC, dtype=float))[:, :2]
+    point = np.asarray(p_BC, dtype=float)[:2]
+    arms = np.asarray(p_BN, dtype=float)[:, :2] - point
     weights = np.ones(len(arms)) if base is None else np.asarray(base, dtype=float)
     if len(weights) != len(arms) or np.any(weights < 0) or not weights.sum() > 0:
         raise ValueError(
             f"distributed load: {len(weights)} shares for {len(arms)} nodes, expected "
             "as many, none negative, and not all zero"
         )
-    weights = weights / weights.sum()
-    planes = np.column_stack([np.ones(len(arms)), arms])
-    moments = planes.T @ (planes * weights[:, None])
-    shares = weights * (planes @ (np.linalg.pinv(moments) @ [1.0, 0.0, 0.0]))
-    left = planes.T @ shares - [1.0, 0.0, 0.0]
-    size = max(float(np.abs(arms).max()), 1.0)
-    if np.abs(left).max() > 1e-6 * size or np.any(shares < -1e-9):
-        x, y = np.asarray(p_BC, dtype=float)[:2]
-        raise ValueError(
-            f"distributed load: the nodes cannot carry a resultant through x {x:.4g}, "
-            f"y {y:.4g} m by pushing all in one direction; expected nodes around it"
-        )
-    return shares
+    arms = arms / max(float(np.abs(arms).max()), 1.0)
+    tilt = np.zeros(2)
+    for _ in range(100):
+        shares = _tilted(weights, arms, tilt)
+        off = shares @ arms
+        if np.abs(off).max() < 1e-14:
+            return shares
+        spread = (arms - off).T @ ((arms - off) * shares[:, None])
+        step = np.linalg.pinv(spread, rcond=1e-12) @ off
+        tilt = tilt - step * min(1.0, 5.0 / max(np.abs(step).max(), 1e-300))
+    if np.abs(shares @ arms).max() < 1e-9:
+        return shares
+    raise ValueError(
+        "distributed load: the nodes cannot carry a resultant through x "
+        f"{point[0]:.4g}, y {point[1]:.4g} m by pushing all in one direction; expected "
+        "nodes around it"
+    )
+
+
+def _tilted(weights: Float64, arms: Float64, tilt: Float64) -> Float64:
+    exponents = arms @ tilt
+    tilted = weights * np.exp(exponents - exponents.max())
+    return tilted / tilted.sum()
 
 
 class DistributedLoad(LeafSystem):

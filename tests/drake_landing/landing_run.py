@@ -7,7 +7,7 @@ from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorC
 from pydrake.systems.framework import Context
 
 from drake_landing.diagram import LandingDiagram
-from drake_landing.equilibrium import set_static_equilibrium
+from drake_landing.equilibrium import set_flight_equilibrium, set_static_equilibrium
 from drake_landing.initial_state import set_initial_state
 
 
@@ -34,11 +34,13 @@ def land(
     accuracy: float = 1e-5,
     scheme: str = "runge_kutta3",
     rolling: float | None = None,
+    flying: bool = False,
     **state,
 ) -> Run:
     """With error control at `accuracy`, or with a fixed `step`, s.
 
-    Just above the runway, or `rolling` at that speed in static equilibrium.
+    Just above the runway, undeformed or `flying` as gravity and lift want it, or
+    `rolling` at that speed in static equilibrium.
     """
     simulator = Simulator(landing.diagram)
     config = SimulatorConfig(
@@ -52,6 +54,8 @@ def land(
     state.setdefault("v_WG", [-speed, 0.0, -sink_rate])
     if rolling is None:
         set_initial_state(landing, context, **state)
+        if flying:
+            set_flight_equilibrium(landing, context)
     else:
         set_static_equilibrium(landing, context, speed=rolling)
     simulator.Initialize()
