@@ -218,7 +218,7 @@ def bad_facets(corners: Float64) -> tuple[Int64, list[str]]:
     concave = (turn <= 1e-9 * longest[:, None] ** 2).any(axis=1) & ~empty
     bad = np.flatnonzero(empty | concave)
     texts = [
-        "its corners enclose no area"
+        "its corners enclose no area or are out of order"
         if empty[i]
         else "it is concave or its corners are out of order, a corner has an angle of "
         "180 deg or more"

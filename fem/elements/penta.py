@@ -93,10 +93,11 @@ def penta_solid(xyz: Float64, elasticity: Float64) -> SolidMatrices:
 
     coupling = integral(bubble, stress)
     amplitude = -np.linalg.solve(integral(bubble, soft), coupling)
-    mean = np.broadcast_to(
-        sampled.mean(axis=1, keepdims=True), (len(xyz), len(OUTPUT), 2, 18)
-    )
-    outside = _strain(xyz, OUTPUT, middle, mean)
+    # Printed shear is linear over the triangle: corner = both own sides - the opposite.
+    mean = sampled.mean(axis=1, keepdims=True)
+    corners = 3.0 * mean - 2.0 * sampled[:, [1, 2, 0]]
+    printed = np.concatenate([mean, corners, corners], axis=1)
+    outside = _strain(xyz, OUTPUT, middle, printed)
     outside = outside + _bubble(xyz, OUTPUT) @ amplitude[:, None]
     return SolidMatrices(
         stiffness=integral(strain, stress) + coupling.transpose(0, 2, 1) @ amplitude,

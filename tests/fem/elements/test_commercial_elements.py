@@ -146,6 +146,4 @@ def test_solid_results_at_centre_and_corners(model, static, card, kind):
     for i, element in enumerate(block.id):
         theirs = rows_of(table, element)
         values = ours[i].reshape(theirs.shape)
-        # CPENTA: the printed corners vary by 2e-4 in shear, which is uniform here.
-        tolerance = 3e-4 if card == "CPENTA" else 2e-5
-        assert np.abs(values - theirs).max() < tolerance * np.abs(theirs).max()
+        assert np.abs(values - theirs).max() < 2e-5 * np.abs(theirs).max()
