@@ -1,6 +1,7 @@
 """Nose gear bay: an open box in the belly, side walls, roof and end walls.
 
-Stiffeners stand on the side walls and lie across the roof at every frame.
+Stiffeners stand on the side walls and lie across the roof at every frame; posts hold
+the roof's corners on the passenger floor, struts on the frames beside the bay.
 """
 
 import numpy as np
@@ -8,12 +9,13 @@ import numpy as np
 from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
+from drake_landing.aircraft.fuselage.passenger_floor import AFT, PassengerFloor
 from drake_landing.aircraft.geometry import Int64
 
 BAY = "fuselage nose gear bay"
 
 
-def add_nose_bay(hull: Hull) -> list[int]:
+def add_nose_bay(hull: Hull, floor: PassengerFloor) -> list[int]:
     """Writes the bay.
 
     Returns:
@@ -40,6 +42,7 @@ def add_nose_bay(hull: Hull) -> list[int]:
     for end in (0, -1):
         _end_wall(hull, rows[end], pid, wall[end], roof[end])
     _stiffen(hull, rows, wall, roof)
+    _brace(hull, floor, rows, wall[:, -1])
     first, last = (hull.rows.at(f) - rows[0] for f in data["gear_frames"])
     return sorted({int(i) for i in wall[first : last + 1].ravel()})
 
@@ -62,8 +65,23 @@ def _stiffen(hull: Hull, rows: list[int], wall: Int64, roof: Int64) -> None:
     beam = halves.profile("bay_beam")
     for k, row in enumerate(rows):
         if hull.rows.frame[row] >= 0:
-            halves.chain(BAY, beam, wall[k], (1.0, 0.0, 0.0))
-            halves.chain(BAY, beam, roof[k], (1.0, 0.0, 0.0))
+            halves.chain(BAY, beam, wall[k], AFT)
+            halves.chain(BAY, beam, roof[k], AFT)
     longeron = halves.profile("opening_longeron")
     for height in (0, -1):
         halves.chain(BAY, longeron, wall[:, height], UP)
+
+
+def _brace(hull: Hull, floor: PassengerFloor, rows: list[int], corner: Int64) -> None:
+    """Posts from the roof's corners up to the crossbeams, struts out to the frames."""
+    halves = hull.halves
+    pid = halves.profile("bay_beam")
+    for k, row in enumerate(rows):
+        if hull.rows.frame[row] < 0:
+            continue
+        y, z = halves.position(corner[k])[1:]
+        beam = floor.beam(row)[:-1]
+        head = min(beam, key=lambda t: abs(halves.position(t)[1] - y))
+        halves.bar(BAY, pid, corner[k], head, AFT)
+        line = hull.lines.nearest(row, 2, z, hull.line("floor"), hull.line("keel"))
+        halves.bar(BAY, pid, corner[k], hull.at(row, line), AFT)

@@ -71,7 +71,7 @@ def add_fuselage_shell(
     floor = add_passenger_floor(hull)
     add_cargo_floor(hull)
     add_bulkheads(hull)
-    nose_gear = add_nose_bay(hull)
+    nose_gear = add_nose_bay(hull, floor)
     keel = add_keel_beam(hull, fit)
     frame = facts("fuselage_shell")["main_bay"]["frames"][1]
     add_bay_wall(hull, floor, frame, keel[hull.rows.at(frame)])
