@@ -1,7 +1,6 @@
 """Wings, tails and movables as shells, with their reference nodes tied to the ribs."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,7 @@ from drake_landing.aircraft.reference_axis import (
 )
 from drake_landing.aircraft.shell_elements import add_box_elements
 from drake_landing.aircraft.shell_mesh import BoxMesh, add_box
-from drake_landing.aircraft.sizing import box_sizing, movable_sizing
+from drake_landing.aircraft.sizing import box_sizing, movable_sizing, smeared
 from drake_landing.aircraft.stations import (
     movable_stations,
     tail_stations,
@@ -69,9 +68,9 @@ def add_lifting_shells(
                 mirror_of=meshes.get(f"{name}_right"),
             )
             meshes[part] = mesh
-            sizing = replace(
-                box_sizing(name), stringer_bars=density["stringers"] == "bars"
-            )
+            sizing = box_sizing(name)
+            if density["stringers"] == "smeared":
+                sizing = smeared(sizing, caps=name != "wing")
             add_box_elements(model, mesh, sizing)
             _tie_ribs(model, reference[part], mesh)
     for side, _ in SIDES:

@@ -1,5 +1,7 @@
 """Sizes of the thin-walled structure along the span, from the facts."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from drake_landing.aircraft.facts import facts, table
@@ -22,6 +24,24 @@ def movable_sizing(name: str) -> BoxSizing:
         rib=lambda _: sheets["rib"],
         bending=data["bending"],
         web_bending=data["bending"],
+    )
+
+
+def smeared(sizing: BoxSizing, *, caps: bool) -> BoxSizing:
+    """The same box with its stringers smeared over the skins.
+
+    Args:
+        sizing: with stringers.
+        caps: smear the spar caps as well, which are slender in the tails.
+    """
+    stringer, cap = sizing.stringer, sizing.cap
+    if not caps or stringer is None or cap is None:
+        return replace(sizing, stringer_bars=False)
+    return replace(
+        sizing,
+        stringer_bars=False,
+        stringer=lambda span: stringer(span) + 2 * cap(span),
+        cap=None,
     )
 
 

@@ -84,3 +84,8 @@ def con(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 @pytest.fixture(scope="session")
 def pre(tmp_path_factory: pytest.TempPathFactory):
     return _read("pre", "2", tmp_path_factory.mktemp("pre"))
+
+
+@pytest.fixture(scope="session")
+def full(tmp_path_factory: pytest.TempPathFactory):
+    return _read("full", "distributed", tmp_path_factory.mktemp("full"))
