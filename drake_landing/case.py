@@ -10,9 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     PlainSerializer,
@@ -24,6 +22,8 @@ from pydantic import (
 )
 
 from drake_landing.gear import AnyGear
+from drake_landing.scenario import Scenario as Scenario
+from drake_landing.section import Section, number
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 Model = Literal["con", "pre", "full"]
@@ -37,12 +37,6 @@ Gears = Annotated[
     | Annotated[tuple[AnyGear, ...], Tag("(list)")],
     Discriminator(lambda value: "(name)" if isinstance(value, str) else "(list)"),
 ]
-
-
-class Section(BaseModel):
-    """Frozen; unknown keys are errors."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class Selection(Section):
@@ -79,30 +73,6 @@ SelectionText = Annotated[
     PlainSerializer(str),
     WithJsonSchema({"type": "string", "pattern": _SELECTION}),
 ]
-
-
-def number(
-    meaning: str,
-    unit: str,
-    default: float | None = None,
-    *,
-    gt: float | None = None,
-    ge: float | None = None,
-    lt: float | None = None,
-    le: float | None = None,
-) -> Any:
-    """A field whose description ends with unit and range; required without default."""
-    low = f"> {gt:g}" if gt is not None else f">= {ge:g}" if ge is not None else ""
-    high = f"< {lt:g}" if lt is not None else f"<= {le:g}" if le is not None else ""
-    limits = " and ".join(part for part in (low, high) if part)
-    return Field(
-        default=... if default is None else default,
-        description=f"{meaning}, {unit}" + (f", {limits}" if limits else ""),
-        gt=gt,
-        ge=ge,
-        lt=lt,
-        le=le,
-    )
 
 
 class Axes(Section):
@@ -174,27 +144,6 @@ class Airframe(Section):
         if self.deck and not self.monitoring:
             raise ValueError("a deck needs `monitoring` points: name and grid id")
         return self
-
-
-class Scenario(Section):
-    """State of the aircraft just before touchdown. Zero angles: level, on the track."""
-
-    sink_rate: float = number("vertical speed at touchdown", "m/s", gt=0, le=10)
-    forward_speed: float = number("along the runway", "m/s", 67.0, ge=0, le=150)
-    side_speed: float = number("toward starboard", "m/s", 0.0, ge=-30, le=30)
-    pitch: float = number("nose up", "deg", 0.0, ge=-20, le=30)
-    roll: float = number("starboard wing down", "deg", 0.0, ge=-30, le=30)
-    yaw: float = number(
-        "nose to starboard of the track (drift, side-slip)", "deg", 0.0, ge=-45, le=45
-    )
-    pitch_rate: float = number("nose up", "deg/s", 0.0, ge=-30, le=30)
-    roll_rate: float = number("starboard wing down", "deg/s", 0.0, ge=-60, le=60)
-    yaw_rate: float = number("nose to starboard", "deg/s", 0.0, ge=-30, le=30)
-    lift: Literal["weight"] = Field(
-        default="weight",
-        description="lift balances the weight: neither acts, all responses are "
-        "increments to steady flight",
-    )
 
 
 class Simulation(Section):

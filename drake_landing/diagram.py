@@ -111,6 +111,7 @@ def MakeLandingDiagram(
     attachment: Literal["rigid", "bushing"] = "rigid",
     gravity: float = 0.0,
     lift: Lift | None = None,
+    brakes: bool = True,
     energy_budget: bool = True,
     log: bool = True,
 ) -> LandingDiagram:
@@ -124,6 +125,7 @@ def MakeLandingDiagram(
         attachment: `rigid`, or `bushing` for elastic fittings.
         gravity: m/s², for airframe and gears; 0 stands for lift equal to weight.
         lift: carried by the airframe, beside gravity.
+        brakes: of gears that have them; False leaves them out, for speed.
         energy_budget: adds the audit, at a few per cent of the run time.
         log: adds loggers of the signals that reports need.
 
@@ -154,7 +156,7 @@ def MakeLandingDiagram(
     held = builder.AddNamedSystem("attachment", kind(plant, points))
     if attachment == "rigid":
         require_shared_loads(body, gears, points, nodes)
-    parts = AddGearSystems(builder, plant, gears, bodies, runway)
+    parts = AddGearSystems(builder, plant, gears, bodies, runway, brakes)
     _connect_attachment(builder, plant, airframe, held, parts.gear_forces)
     carrying = None
     if lift is None:

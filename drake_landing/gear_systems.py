@@ -67,6 +67,7 @@ def AddGearSystems(
     gears: Sequence[LandingGear],
     bodies: Mapping[str, GearBodies],
     runway: Runway | None = None,
+    brakes: bool = True,
 ) -> GearSystems:
     """Adds tyres, shock absorbers and what connects them to a plant.
 
@@ -82,6 +83,7 @@ def AddGearSystems(
         gears: data of the gears.
         bodies: what AddLandingGear returned for each, by name.
         runway: default flat and dry.
+        brakes: of gears that have them; False leaves them out.
 
     Raises:
         ValueError: a parameter is out of range.
@@ -91,7 +93,7 @@ def AddGearSystems(
     spins = {
         name: joint
         for gear in gears
-        if gear.brake
+        if gear.brake and brakes
         for name, joint in bodies[gear.name].spins.items()
     }
     pitches = {g.name: p for g in gears if (p := bodies[g.name].pitch) is not None}
@@ -111,6 +113,8 @@ def AddGearSystems(
     )
     for gear in gears:
         _add_laws(builder, gear, runway, systems)
+        if gear.brake and brakes:
+            _add_brakes(builder, gear, systems)
 
     _connect(builder, plant, "state", kinematics, "plant_state")
     for gear in gears:
@@ -129,18 +133,14 @@ def _add_laws(
     runway: Runway | None,
     systems: GearSystems,
 ) -> None:
-    tire, absorber, brake, pitch = (
-        cast(Any, kind) for kind in (Tire, ShockAbsorber, Brake, BogiePitch)
+    tire, absorber, pitch = (
+        cast(Any, kind) for kind in (Tire, ShockAbsorber, BogiePitch)
     )
     law = tire_parameters(gear.tyre)
     for wheel in gear.wheel_names:
         systems.tires[wheel] = builder.AddNamedSystem(
             f"tire_{wheel}", tire(law, runway)
         )
-        if gear.brake:
-            systems.brakes[wheel] = builder.AddNamedSystem(
-                f"brake_{wheel}", brake(brake_parameters(gear.brake))
-            )
     systems.shock_absorbers[gear.name] = builder.AddNamedSystem(
         f"shock_absorber_{gear.name}",
         absorber(shock_absorber_parameters(gear.shock_absorber)),
@@ -152,6 +152,16 @@ def _add_laws(
         )
 
 
+def _add_brakes(
+    builder: DiagramBuilder, gear: LandingGear, systems: GearSystems
+) -> None:
+    assert gear.brake is not None
+    law = brake_parameters(gear.brake)
+    for wheel in gear.wheel_names:
+        brake = builder.AddNamedSystem(f"brake_{wheel}", cast(Any, Brake)(law))
+        systems.brakes[wheel] = brake
+
+
 def _connect_gear(
     builder: DiagramBuilder, gear: LandingGear, systems: GearSystems
 ) -> None:
@@ -161,11 +171,11 @@ def _connect_gear(
         tire = systems.tires[wheel]
         _connect(builder, kinematics, f"wheel_{wheel}", tire, "wheel")
         _connect(builder, tire, "wrench", forces, f"tire_{wheel}")
-        if gear.brake:
-            brake = systems.brakes[wheel]
+        brake = systems.brakes.get(wheel)
+        if brake is not None:
             _connect(builder, kinematics, f"spin_{wheel}", brake, "wheel_spin")
             _connect(builder, brake, "torque", forces, f"brake_{wheel}")
-            if gear.brake.anti_skid:
+            if brake.parameters.anti_skid:
                 _connect(builder, tire, "contact", brake, "contact")
     _connect(builder, kinematics, f"strut_{name}", absorber, "strut_state")
     _connect(builder, absorber, "force", forces, f"strut_{name}")

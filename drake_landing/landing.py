@@ -4,7 +4,6 @@ The multibody model lives in the axes A (x aft, y to starboard, z up); what is l
 the airframe is turned into the axes B of the deck, see `axes`.
 """
 
-import math
 import time as clock
 from collections.abc import Mapping, Sequence
 
@@ -16,12 +15,16 @@ from pydrake.systems.framework import Context, EventStatus
 
 from drake_landing.axes import gear_in_A
 from drake_landing.case import Scenario, Simulation
-from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.diagram import LandingDiagram
 from drake_landing.gear import LandingGear
 from drake_landing.handover import distinct_instants
 from drake_landing.history import ATTACHMENT, POINT, STRUT, TYRE, LandingHistory
-from drake_landing.initial_state import angular_velocity, attitude, set_initial_state
 from drake_landing.progress import Reporter, Silent
+from drake_landing.start import (
+    make_scenario_diagram,
+    reference_energy,
+    set_scenario_state,
+)
 from fem.errors import InputError
 from systems.modal_body import ModalBody
 
@@ -39,6 +42,7 @@ def build_landing(
     gears: Sequence[LandingGear],
     monitoring: Mapping[str, int],
     R_AB: Float64,
+    scenario: Scenario,
 ) -> LandingDiagram:
     """The diagram of an aircraft, for any number of runs.
 
@@ -47,15 +51,17 @@ def build_landing(
         gears: in B, as in the case.
         monitoring: point -> grid id.
         R_AB: (3, 3).
+        scenario: its runway, gravity, lift and brakes are part of the diagram.
 
     Raises:
         InputError: the gears cannot be built or held as they are described.
     """
     try:
-        return MakeLandingDiagram(
+        return make_scenario_diagram(
             body,
             [gear_in_A(gear, R_AB) for gear in gears],
-            monitor_nodes=list(monitoring.values()),
+            scenario,
+            list(monitoring.values()),
         )
     except ValueError as error:
         raise InputError(f"gears: {error}") from None
@@ -83,7 +89,7 @@ def fly(
         LandingError: the integrator gave up.
     """
     context = landing.diagram.CreateDefaultContext()
-    touchdown_state(landing, context, scenario, simulation.clearance)
+    start_state(landing, context, scenario, simulation.clearance)
     start = clock.process_time()
     simulator = _simulator(landing, context, simulation, progress or Silent())
     try:
@@ -100,24 +106,23 @@ def fly(
         "steps": float(integrator.get_num_steps_taken()),
         "evaluations": float(integrator.get_num_derivative_evaluations()),
         "processor_seconds": clock.process_time() - start,
-        "sink_energy": _sink_energy(landing, scenario.sink_rate),
+        "sink_energy": reference_energy(landing, scenario),
     }
     return _history(landing, context, monitoring, R_AB, figures)
 
 
-def touchdown_state(
+def start_state(
     landing: LandingDiagram, context: Context, scenario: Scenario, clearance: float
 ) -> None:
-    """Steady flight with the scenario's attitude, velocities and rates."""
-    s, rad = scenario, math.radians
-    set_initial_state(
-        landing,
-        context,
-        v_WG=[-s.forward_speed, s.side_speed, -s.sink_rate],
-        R_WB=attitude(rad(s.roll), rad(s.pitch), rad(s.yaw)),
-        w_B=angular_velocity(rad(s.roll_rate), rad(s.pitch_rate), rad(s.yaw_rate)),
-        clearance=clearance,
-    )
+    """The state of the scenario.
+
+    Raises:
+        InputError: the aircraft cannot stand as its gears are.
+    """
+    try:
+        set_scenario_state(landing, context, scenario, clearance)
+    except ValueError as error:
+        raise InputError(f"scenario: {error}") from None
 
 
 def _simulator(
@@ -143,11 +148,6 @@ def _simulator(
 
     simulator.set_monitor(tell)
     return simulator
-
-
-def _sink_energy(landing: LandingDiagram, sink_rate: float) -> float:
-    mass = landing.body.mass + sum(gear.mass for gear in landing.gears)
-    return 0.5 * mass * sink_rate**2
 
 
 def _history(

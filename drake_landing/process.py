@@ -79,7 +79,7 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
 
     stages.begin(f"landing (elastic modes in the multibody model: {airframe.body.n})")
     points = aircraft.monitoring
-    landing = build_landing(airframe.body, aircraft.gears, points, R_AB)
+    landing = build_landing(airframe.body, aircraft.gears, points, R_AB, case.scenario)
     history = fly(
         landing, case.scenario, case.simulation, points, R_AB, stages.progress
     )

@@ -151,6 +151,11 @@ def Brake_(T):
         def parameters(self) -> BrakeParameters:
             return self._parameters
 
+        def set_factor(self, context, factor: float) -> None:
+            """Sets the factor on the torque in a context of this system."""
+            parameter = context.get_mutable_numeric_parameter(self._factor)
+            parameter.SetAtIndex(0, factor)
+
         def _torque(self, context):
             p = self._parameters
             spin = self._spin.Eval(context).tolist()[0]

@@ -43,7 +43,7 @@ def body() -> ModalBody:
 
 @pytest.fixture(scope="module")
 def history(case: Case, body: ModalBody) -> LandingHistory:
-    landing = build_landing(body, case.gears, POINTS, np.eye(3))
+    landing = build_landing(body, case.gears, POINTS, np.eye(3), case.scenario)
     return fly(landing, case.scenario, Simulation(duration=0.15), POINTS, np.eye(3))
 
 
@@ -84,7 +84,7 @@ def test_results_do_not_depend_on_the_axes_of_the_deck(
     R_AB = rotation_AB(axes)
     assert np.linalg.det(R_AB) == pytest.approx(1)
     gears = [gear_in_A(gear, R_AB.T) for gear in case.gears]  # as the deck's user has
-    landing = build_landing(body, gears, POINTS, R_AB)
+    landing = build_landing(body, gears, POINTS, R_AB, case.scenario)
     found = fly(landing, case.scenario, Simulation(duration=0.05), POINTS, R_AB)
     count = len(found.time) - 1  # the last step ends at the duration
     in_A = found.attachment_loads().load.reshape(-1, 3, 2, 3) @ R_AB.T
@@ -100,7 +100,7 @@ def test_results_do_not_depend_on_the_axes_of_the_deck(
 def test_a_low_wing_touches_first(
     case: Case, body: ModalBody, angles: dict[str, float], sign: int
 ) -> None:
-    landing = build_landing(body, case.gears, POINTS, np.eye(3))
+    landing = build_landing(body, case.gears, POINTS, np.eye(3), case.scenario)
     scenario = Scenario(sink_rate=1.2, forward_speed=40, **angles)
     found = fly(landing, scenario, Simulation(duration=0.04), POINTS, np.eye(3))
     difference = found.leg("main_right", "vertical") - found.leg(
@@ -110,7 +110,7 @@ def test_a_low_wing_touches_first(
 
 
 def test_a_nose_up_attitude_lifts_the_nose_gear(case: Case, body: ModalBody) -> None:
-    landing = build_landing(body, case.gears, POINTS, np.eye(3))
+    landing = build_landing(body, case.gears, POINTS, np.eye(3), case.scenario)
     scenario = Scenario(sink_rate=1.2, forward_speed=40, pitch=3)
     found = fly(landing, scenario, Simulation(duration=0.04), POINTS, np.eye(3))
     assert found.leg("nose", "vertical").max() == 0
@@ -127,6 +127,6 @@ def test_a_simulation_that_breaks_down_says_when(
         raise failure
 
     monkeypatch.setattr(Simulator, "AdvanceTo", give_up)
-    landing = build_landing(body, case.gears, POINTS, np.eye(3))
+    landing = build_landing(body, case.gears, POINTS, np.eye(3), case.scenario)
     with pytest.raises(LandingError, match=r"stopped at 0\.0000 s of 0\.4 s"):
         fly(landing, case.scenario, case.simulation, POINTS, np.eye(3))
