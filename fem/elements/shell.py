@@ -28,6 +28,9 @@ from fem.elements.shell_section import ShellSection, strain_rotation, vector_rot
 from fem.elements.shell_shear import shear
 from fem.shell_properties import ShellProperty
 
+# Elements that are computed at a time: their arrays stay in the cache.
+_CHUNK = 1024
+
 
 @dataclass(frozen=True, kw_only=True)
 class Shell(DenseBlock):
@@ -74,12 +77,20 @@ class Shell(DenseBlock):
 
     def stiffness(self) -> Float64:
         """(e, 6 n, 6 n)."""
-        shape = self.shape
-        matrix = in_plane(shape, self.section).stiffness
-        matrix += shear(shape, self.section)[0]
-        if self.k6rot:
-            matrix += drilling(shape, self.section.membrane[:, 2, 2], self.k6rot)
-        return matrix_to_grids(matrix, shape)
+        size = self.dof.shape[1]
+        matrix = np.empty((len(self.id), size, size))
+        for start in range(0, len(self.id), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            shape, section = self._shape(part), self.section.take(part)
+            local = in_plane(shape, section).stiffness()
+            local += shear(shape, section)[0]
+            if self.k6rot:
+                local += drilling(shape, section.membrane[:, 2, 2], self.k6rot)
+            matrix[part] = matrix_to_grids(local, shape)
+        return matrix
+
+    def _shape(self, part: slice) -> Facet:
+        return facet(self.corners[part], self.offset[part], self.normals[part])
 
     def structural_damping(self) -> Float64 | None:
         """(e,) GE."""
@@ -95,11 +106,16 @@ class Shell(DenseBlock):
         M = int sigma z dz. p is 1, or 5 (centre, corners) for quadrilaterals with
         `corner`; Q is that of the centre everywhere.
         """
-        shape = self.shape
-        plate = in_plane(shape, self.section).resultant
-        if not corner:
-            plate = plate[:, :1]
-        force = shear(shape, self.section)[1][:, None]
+        parts = [
+            self._resultants(slice(start, start + _CHUNK), corner)
+            for start in range(0, len(self.id), _CHUNK)
+        ]
+        return np.concatenate(parts)
+
+    def _resultants(self, part: slice, corner: bool) -> Float64:
+        shape, section = self._shape(part), self.section.take(part)
+        plate = in_plane(shape, section).resultant(corner=corner)
+        force = shear(shape, section)[1][:, None]
         force = np.broadcast_to(force, (*plate.shape[:2], *force.shape[2:]))
         local = np.concatenate([plate, force], axis=2)
         e, p = local.shape[:2]

@@ -23,16 +23,30 @@ CENTRE_AND_CORNERS = np.vstack([np.zeros((1, 2)), _CORNERS])
 
 @dataclass(frozen=True, kw_only=True)
 class InPlane:
-    """Stiffness and resultants in the flat local freedoms of `n` corners.
+    """Membrane and bending in the freedoms [u v ..., bx by ...] of `n` corners.
 
     Attributes:
-        stiffness: (e, 6 n, 6 n).
-        resultant: (e, p, 6, 6 n) N (xx yy xy) and M at p points: the centre, then for
-            quadrilaterals the corners.
+        reduced: (e, 4 n, 4 n) stiffness.
+        modes: (e, b, 4 n) amplitudes of the assumed resultants.
+        at: (e, p, 6, b) resultants N (xx yy xy) and M of unit amplitudes at p points:
+            the centre, then for quadrilaterals the corners.
     """
 
-    stiffness: Float64
-    resultant: Float64
+    reduced: Float64
+    modes: Float64
+    at: Float64
+
+    def stiffness(self) -> Float64:
+        """(e, 6 n, 6 n) in flat local freedoms."""
+        half = scatter(self.reduced).transpose(0, 2, 1)
+        return scatter(half)
+
+    def resultant(self, *, corner: bool) -> Float64:
+        """(e, p, 6, 6 n) N and M from flat local freedoms; p 1, or all points."""
+        at = self.at if corner else self.at[:, :1]
+        e, p = at.shape[:2]
+        found = scatter((at @ self.modes[:, None]).reshape(e, p * 6, -1))
+        return found.reshape(e, p, 6, -1)
 
 
 def in_plane(shape: Facet, section: ShellSection) -> InPlane:
@@ -101,8 +115,8 @@ def _compliance(section: ShellSection) -> tuple[Float64, Float64]:
     scale = np.sqrt(np.einsum("eii->ei", joined).clip(1e-300))
     scaled = joined / (scale[:, :, None] * scale[:, None, :])
     # A material without stiffness in a direction (MAT2) has no finite compliance.
-    singular = np.linalg.cond(scaled) > 1e12
-    scaled[singular] += 1e-9 * np.eye(6)
+    value = np.linalg.eigvalsh(scaled)
+    scaled[value[:, 0] < 1e-12 * value[:, -1]] += 1e-9 * np.eye(6)
     flexible = np.linalg.inv(scaled) / (scale[:, :, None] * scale[:, None, :])
     if section.taper is None:
         return flexible[:, None], there
@@ -145,16 +159,10 @@ def _quadrilateral(shape: Facet, section: ShellSection) -> InPlane:
     modes = np.linalg.solve(flexible, work)
     stiffness = work.transpose(0, 2, 1) @ modes
     points = _resultant_modes(shape, CENTRE_AND_CORNERS)
-    resultant = np.concatenate(
-        [points @ modes[:, None, :5], points @ modes[:, None, 5:]], axis=2
-    )
-    resultant = resultant * there[:, None, :, None]
-    e, p = resultant.shape[:2]
-    half = scatter(stiffness).transpose(0, 2, 1)
-    return InPlane(
-        stiffness=scatter(half),
-        resultant=scatter(resultant.reshape(e, p * 6, 16)).reshape(e, p, 6, 24),
-    )
+    at = np.zeros((*points.shape[:2], 6, 10))
+    at[:, :, :3, :5] = points * there[:, None, None, :1]
+    at[:, :, 3:, 5:] = points * there[:, None, None, 3:4]
+    return InPlane(reduced=stiffness, modes=modes, at=at)
 
 
 def _resultant_modes(shape: Facet, at: Float64) -> Float64:
@@ -188,10 +196,10 @@ def _triangle(shape: Facet, section: ShellSection) -> InPlane:
     double[:, :3, :6] = double[:, 3:, 6:] = strain
     if section.taper is not None:
         joined = joined * _mean_powers(section.taper)
-    double = scatter(double)
     resultant = joined @ double
     stiffness = area[:, None, None] * (double.transpose(0, 2, 1) @ resultant)
-    return InPlane(stiffness=stiffness, resultant=resultant[:, None])
+    at = np.broadcast_to(np.eye(6), (len(area), 1, 6, 6))
+    return InPlane(reduced=stiffness, modes=resultant, at=at)
 
 
 def _mean_powers(taper: Float64) -> Float64:

@@ -42,8 +42,8 @@ class ShellSection:
     mass_height: Float64
     ge: Float64
 
-    def take(self, which: Float64) -> "ShellSection":
-        """The section of some elements (indices or mask)."""
+    def take(self, which: slice) -> "ShellSection":
+        """The section of some elements."""
         chosen = {k: (None if v is None else v[which]) for k, v in vars(self).items()}
         return replace(self, **chosen)
 

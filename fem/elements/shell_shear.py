@@ -43,8 +43,10 @@ def residual_flexibility(shape: Facet, bending: Float64) -> Float64:
         sides = 0.5 * (length[:, :2] + length[:, 2:])
         length = np.broadcast_to(sides.min(axis=1, keepdims=True), length.shape)
     share: Float64 = length**2 / (24.0 * np.where(along > 0.0, along, np.inf))
-    residual = np.einsum("ek,eki,ekj->eij", share, direction, direction)
-    return residual if shape.corners == 4 else _limited(residual)
+    residual = (share[..., None] * direction).transpose(0, 2, 1) @ direction
+    if shape.corners == 3:
+        residual = _limited(residual)
+    return residual
 
 
 def _limited(flexibility: Float64) -> Float64:
