@@ -13,8 +13,8 @@ from drake_landing.aircraft.fuselage.halves import Halves
 from drake_landing.aircraft.fuselage.hull import Hull, make_hull
 from drake_landing.aircraft.fuselage.keel_beam import add_keel_beam
 from drake_landing.aircraft.fuselage.lines import fuselage_lines
+from drake_landing.aircraft.fuselage.longerons import add_opening_edges, add_splices
 from drake_landing.aircraft.fuselage.nose_bay import add_nose_bay
-from drake_landing.aircraft.fuselage.openings import add_crown_strap, add_opening_edges
 from drake_landing.aircraft.fuselage.passenger_floor import (
     PassengerFloor,
     add_passenger_floor,
@@ -76,7 +76,7 @@ def add_fuselage_shell(
     frame = facts("fuselage_shell")["main_bay"]["frames"][1]
     add_bay_wall(hull, floor, frame, keel[hull.rows.at(frame)])
     add_opening_edges(hull)
-    add_crown_strap(hull)
+    add_splices(hull)
     if meshes is not None and fit is not None:
         add_wing_junction(hull, floor, fit)
         join_fin(hull, meshes["fin"])

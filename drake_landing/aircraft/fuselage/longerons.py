@@ -1,10 +1,10 @@
-"""Longerons along the edges of openings in belly and tail cone; the crown's strap."""
+"""Longerons: along the edges of openings in belly and tail cone, and panel splices."""
 
 from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull, tailplane_lines
 
-EDGES = "fuselage opening edges"
+EDGES = "fuselage longerons"
 
 
 def add_opening_edges(hull: Hull) -> None:
@@ -19,8 +19,9 @@ def add_opening_edges(hull: Hull) -> None:
         halves.chain(EDGES, pid, [hull.at(row, line) for row in rows], UP)
 
 
-def add_crown_strap(hull: Hull) -> None:
-    """The splice of the skin panels along the crown."""
-    rows = hull.rows.between(*facts("fuselage_shell")["crown_strap"])
+def add_splices(hull: Hull) -> None:
+    """The doubled edges of the skin panels where these are joined lengthwise."""
     strap = hull.halves.profile("stringer")
-    hull.halves.chain(EDGES, strap, [hull.at(row, 0) for row in rows], UP)
+    for name, *frames in facts("fuselage_shell")["splices"]:
+        rows, line = hull.rows.between(*frames), hull.line(name)
+        hull.halves.chain(EDGES, strap, [hull.at(row, line) for row in rows], UP)
