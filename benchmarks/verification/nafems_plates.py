@@ -4,6 +4,7 @@ import numpy as np
 
 from benchmarks.verification.mesh import Bulk, box, rectangle
 from benchmarks.verification.nafems_beams import MODES, STEP, sudden
+from benchmarks.verification.plate_theory import StepSeries, ritz_frequencies
 from benchmarks.verification.row import Row, convergence, figure
 from benchmarks.verification.runner import run
 
@@ -43,25 +44,43 @@ def frequencies(bulk: Bulk, count: int, *, coupled: bool) -> np.ndarray:
     return run(bulk.deck(103, MODES))["modes/frequency_hz"]
 
 
-def plates(meshes: tuple[int, ...] = (8, 16, 32)) -> list[Row]:
-    """FV11, FV12, FV16 with lumped mass, as Nastran has it by default."""
+RIGIDITY = E * 0.05**3 / (12.0 * (1.0 - NU**2))
+
+
+def plates(meshes: tuple[int, ...] = (8, 16, 32, 64)) -> list[Row]:
+    """FV11, FV12, FV16 with lumped mass, as Nastran has it by default.
+
+    Published figures of FV12 and FV16 are upper bounds of up to 1 % (Ritz with few
+    terms): the solution with many terms stands beside them.
+    """
     rows = []
-    for (case, reference), support in zip(FIXED.items(), ("simple", "free", "clamped")):
+    for (case, published), support in zip(FIXED.items(), ("simple", "free", "clamped")):
         skip = 3 if support == "free" else 0
+        count = len(published)
         hz = {
             f"{n} x {n}": frequencies(
-                square_plate(n, support), len(reference) + skip, coupled=False
+                square_plate(n, support), count + skip, coupled=False
             )[skip:]
             for n in meshes
         }
-        for mode, theirs in enumerate(reference):
-            rows += convergence(
-                case,
-                f"mode {mode + 1 + skip}, Hz",
-                [(mesh, values[mode]) for mesh, values in hz.items()],
-                theirs,
-                "NAFEMS R0015",
+        exact = np.array(published)
+        if support != "simple":
+            exact = ritz_frequencies(
+                RIGIDITY, RHO * 0.05, SIDE, NU, count, clamped=support == "clamped"
             )
+        for mode, (theirs, theory) in enumerate(zip(published, exact)):
+            found = [(mesh, values[mode]) for mesh, values in hz.items()]
+            quantity = f"mode {mode + 1 + skip}, Hz"
+            coarse = abs(theirs / theory - 1.0) > 0.002
+            target = 0.02 if coarse else 0.01
+            rows += convergence(
+                case, quantity, found, theirs, "NAFEMS R0015", target=target
+            )
+            if coarse:
+                source = "Kirchhoff, Ritz with 14 x 14 terms"
+                rows += convergence(
+                    case, f"{quantity} (accurate)", found, theory, source
+                )
     return rows
 
 
@@ -173,8 +192,13 @@ def plate_step(n: int, thickness: float, pressure: float, damping: tuple[float, 
     return bulk.deck(sol, case)
 
 
-def plate_transients() -> list[Row]:
-    """13T (thin) and 21T (thick): peak, its time, stress, static displacement."""
+def plate_transients(meshes: tuple[int, ...] = (8, 16, 32)) -> list[Row]:
+    """13T (thin) and 21T (thick): peak, its time, stress, static displacement.
+
+    The published peaks are 1.939 times a static value: the first mode alone. All modes
+    together are Navier's series, which stands beside them. Stresses at the centre of
+    the element next to the middle of the plate, in the series too.
+    """
     rows = []
     for case, thickness, pressure, damping, steps, reference in (
         ("NAFEMS 13T thin plate, step", 0.05, 100.0, (0.299, 1.339e-3), (200, 0.002),
@@ -182,31 +206,61 @@ def plate_transients() -> list[Row]:
         ("NAFEMS 21T thick plate, step", 1.0, 1e6, (5.772, 6.929e-5), (200, 1e-4),
          (4.524, 0.0108, 62.11, 2.333)),
     ):  # fmt: skip
+        series = StepSeries(
+            young=E, nu=NU, density=RHO, side=SIDE, thickness=thickness,
+            pressure=pressure, alpha=damping[0], beta=damping[1],
+        )  # fmt: skip
         found: list[list[tuple[str, float]]] = [[] for _ in reference]
-        for n in (8, 16, 32):
-            mesh, model = f"{n} x {n}", (n, thickness, pressure, damping, steps)
-            ours = run(plate_step(*model, 109, STEP))
-            middle = (n // 2) * (n + 1) + n // 2
-            w = ours["transient/1/displacement"][:, middle, 2]
-            element = n // 2 * n + n // 2
-            stress = ours.column("transient/1/element_stress/CQUAD4", "oxx_2")
-            rest = run(plate_step(*model, 101, "SPC = 1\nLOAD = 20"))
-            for series, value in zip(
-                found,
-                (
-                    1e3 * abs(w).max(),
-                    ours["transient/1/time"][abs(w).argmax()],
-                    1e-6 * np.abs(stress[:, element]).max(),
-                    1e3 * abs(rest["static/1/displacement"][middle, 2]),
-                ),
-            ):
-                series.append((mesh, value))
+        theory = reference
+        for n in meshes:
+            model = (n, thickness, pressure, damping, steps)
+            ours, theory = _plate_response(series, *model)
+            for values, value in zip(found, ours):
+                values.append((f"{n} x {n}", value))
         names = ("peak, mm", "time of it, s", "peak stress, N/mm²", "static, mm")
-        for name, series, theirs in zip(names, found, reference):
-            source = "NAFEMS R0016"
-            # The reference is a modal series of few terms; stress at element centres.
-            target = 0.03 if "stress" in name or "time" in name else 0.015
-            if name.startswith("static"):
-                target = 0.01
-            rows += convergence(case, name, series, theirs, source, target=target)
+        allowed = (0.02, 0.02, 0.08, 0.025)
+        for name, values, theirs, exact, wide in zip(
+            names, found, reference, theory, allowed
+        ):
+            rows += convergence(
+                case, name, values, theirs, "NAFEMS R0016, first mode", target=wide
+            )
+            # Times are known to a step.
+            target = 0.02 if "time" in name else 0.01
+            source = "Mindlin, Navier's series"
+            rows += convergence(
+                case, f"{name} (all modes)", values, exact, source, target=target
+            )
     return rows
+
+
+def _plate_response(
+    series: StepSeries,
+    n: int,
+    thickness: float,
+    pressure: float,
+    damping: tuple[float, float],
+    steps: tuple[int, float],
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """Peak (mm), its time, stress (N/mm²), static (mm): ours, and of the series."""
+    model = (n, thickness, pressure, damping, steps)
+    run_ = run(plate_step(*model, 109, STEP))
+    rest = run(plate_step(*model, 101, "SPC = 1\nLOAD = 20"))
+    middle = (n // 2) * (n + 1) + n // 2
+    time = run_["transient/1/time"]
+    w = np.abs(run_["transient/1/displacement"][:, middle, 2])
+    stress = run_.column("transient/1/element_stress/CQUAD4", "oxx_2")
+    stress = np.abs(stress[:, n // 2 * n + n // 2])
+    at_rest = abs(rest["static/1/displacement"][middle, 2])
+    off = 0.5 * SIDE + 0.5 * SIDE / n
+    exact, _ = series.histories(time, 0.5 * SIDE, 0.5 * SIDE)
+    _, exact_stress = series.histories(time, off, off)
+    return (
+        (1e3 * w.max(), time[w.argmax()], 1e-6 * stress.max(), 1e3 * at_rest),
+        (
+            1e3 * exact.max(),
+            time[exact.argmax()],
+            1e-6 * exact_stress.max(),
+            1e3 * series.static(),
+        ),
+    )
