@@ -29,12 +29,17 @@ class Recovery:
         matrix: (e, c_linear, n) linear map from element freedoms (the block's `frame`)
             to linear quantities.
         id: (e,) element ids.
+        rate: (e, c_linear, n) what velocities of the freedoms add (dampers), or None.
+        nodal: (e, c_linear, n) what forces of the element on its freedoms amount to;
+            given by elements that loads may act upon between their grids (PLOAD1).
     """
 
     table: str
     columns: tuple[str, ...]
     matrix: Float64
     id: Int64
+    rate: Float64 | None = None
+    nodal: Float64 | None = None
 
     def derive(self, linear: Float64) -> Float64:
         """Printed columns from linear quantities; overridden for von Mises etc.
@@ -46,6 +51,26 @@ class Recovery:
             (..., e, c) in the order of `columns`.
         """
         return linear
+
+
+Kind = Literal["force", "stress", "strain"]
+KINDS: tuple[Kind, ...] = ("force", "stress", "strain")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Detail:
+    """How results are asked for.
+
+    Attributes:
+        corner: results of quadrilaterals at the corners, too (CORNER, BILIN, ...).
+        fibre: strains of shells at both fibres instead of curvatures (FIBER).
+    """
+
+    corner: bool = False
+    fibre: bool = False
+
+
+CENTRE = Detail()
 
 
 class ElementBlock(Protocol):
@@ -92,4 +117,12 @@ class ElementBlock(Protocol):
 
     def stresses(self) -> Recovery | None:
         """Element stresses, None where Nastran prints none."""
+        ...
+
+    def strains(self) -> Recovery | None:
+        """Element strains, None where Nastran prints none."""
+        ...
+
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+        """Forces, stresses or strains in the detail that is asked for."""
         ...

@@ -5,7 +5,7 @@ from typing import Literal
 
 import numpy as np
 
-from fem.elements.block import Float64, Int64, Recovery
+from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,6 +47,16 @@ class DenseBlock:
     def stresses(self) -> Recovery | None:
         """None: no element stresses."""
         return None
+
+    def strains(self) -> Recovery | None:
+        """None: no element strains."""
+        return None
+
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+        """`forces`, `stresses` or `strains`; most elements know one detail only."""
+        if kind == "force":
+            return self.forces()
+        return self.stresses() if kind == "stress" else self.strains()
 
 
 def some(values: Float64) -> Float64 | None:

@@ -104,6 +104,15 @@ class Rod(DenseBlock):
             id=self.id,
         )
 
+    def strains(self) -> Recovery:
+        """Stretch, and shear strain at the lever of the torsional stress."""
+        return Recovery(
+            table=self.card,
+            columns=("axial", "torsion"),
+            matrix=self._resultants(np.ones_like(self.length), self.section.c),
+            id=self.id,
+        )
+
     def _resultants(self, per_strain: Float64, per_twist: Float64) -> Float64:
         """(e, 2, 12) multiples of the axial strain and of the rate of twist."""
         matrix = np.zeros((len(self.length), 2, 12))

@@ -43,17 +43,16 @@ def residual_flexibility(shape: Facet, bending: Float64) -> Float64:
         sides = 0.5 * (length[:, :2] + length[:, 2:])
         length = np.broadcast_to(sides.min(axis=1, keepdims=True), length.shape)
     share: Float64 = length**2 / (24.0 * np.where(along > 0.0, along, np.inf))
-    residual = (share[..., None] * direction).transpose(0, 2, 1) @ direction
-    if shape.corners == 3:
-        residual = _limited(residual)
-    return residual
+    scaled = share[..., None] * direction
+    residual: Float64 = np.matmul(scaled.transpose(0, 2, 1), direction)
+    return _limited(residual) if shape.corners == 3 else residual
 
 
 def _limited(flexibility: Float64) -> Float64:
     """Symmetric (e, 2, 2) with the larger principal value at most 3 times the other."""
     value, vector = np.linalg.eigh(flexibility)
     value = np.minimum(value, HALF_SQUARE_RATIO * value[:, :1])
-    return (vector * value[:, None, :]) @ vector.transpose(0, 2, 1)
+    return np.einsum("eik,ek,ejk->eij", vector, value, vector)
 
 
 def edge_shear(shape: Facet) -> Float64:
