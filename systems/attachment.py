@@ -28,13 +28,10 @@ from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlan
 from pydrake.multibody.tree import MultibodyForces, RigidBody
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
+from systems import kernels
 from systems.attachment_points import AttachmentPoint, HoldPattern, Rows
 from systems.gear_forces import spatial_forces
-from systems.rotations import (
-    log,
-    rotation_from_quaternion,
-    rotations_from_quaternions,
-)
+from systems.rotations import rotation_from_quaternion
 
 Float64 = npt.NDArray[np.float64]
 
@@ -102,13 +99,10 @@ class Attachment(LeafSystem):
                     "a quaternion floating joint"
                 )
         starts = np.array([body.floating_positions_start() for body in fittings])
-        starts = starts[pattern.fitting_of]
-        self._quaternions = np.add.outer(starts, [0, 1, 2, 3])
-        self._translations = np.add.outer(starts, [4, 5, 6])
+        self._positions = starts[pattern.fitting_of]
         v = np.array([body.floating_velocities_start_in_v() for body in fittings])
-        rows = np.add.outer(v, np.arange(6))
-        self._rows = rows.ravel()
-        self._state_rows = plant.num_positions() + rows[pattern.fitting_of].ravel()
+        self._rows = np.add.outer(v, np.arange(6)).ravel()
+        self._velocities = plant.num_positions() + v[pattern.fitting_of]
 
         vector: Any = self.DeclareVectorInputPort
         self._state = vector("plant_state", plant.num_multibody_states())
@@ -168,27 +162,25 @@ class Attachment(LeafSystem):
         return float((self._pattern.damping * gap.rate**2).sum())
 
     def _calc_gap(self, context, value) -> None:
-        state = self._state.Eval(context)
-        pose = self._pose.Eval(context).reshape(self._k, 12)
-        R_WF = rotations_from_quaternions(state[self._quaternions])
-        R_WN = pose[:, :9].reshape(self._k, 3, 3)
-        gap = np.empty((self._k, 2, 6))
-        gap[:, 0, :3] = log(R_WF @ R_WN.swapaxes(1, 2))
-        gap[:, 0, 3:] = state[self._translations] - pose[:, 9:]
-        V_WF, V_WN = state[self._state_rows], self._velocity.Eval(context)
-        gap[:, 1] = (V_WF - V_WN).reshape(self._k, 6)
-        if self._pattern.plain:
-            value.set_value(Gap(gap, gap[:, 0].ravel(), gap[:, 1].ravel(), None))
-            return
-        rows = self._pattern.rows(
-            gap,
-            R_WF,
-            state[self._translations],
-            V_WF.reshape(self._k, 6),
-            pose[:, 9:],
-            V_WN.reshape(self._k, 6),
+        state, pose = self._state.Eval(context), self._pose.Eval(context)
+        velocity = self._velocity.Eval(context)
+        gap, rate, R_WF = kernels.fitting_gaps(
+            state, self._positions, self._velocities, pose, velocity
         )
-        value.set_value(Gap(gap, rows.gap, rows.rate, rows))
+        points = np.stack([gap, rate], axis=1)
+        if self._pattern.plain:
+            value.set_value(Gap(points, gap.ravel(), rate.ravel(), None))
+            return
+        six, three = np.arange(6), np.arange(4, 7)
+        rows = self._pattern.rows(
+            points,
+            R_WF,
+            state[np.add.outer(self._positions, three)],
+            state[np.add.outer(self._velocities, six)],
+            pose.reshape(-1, 12)[:, 9:],
+            velocity.reshape(-1, 6),
+        )
+        value.set_value(Gap(points, rows.gap, rows.rate, rows))
 
     def _calc_wrench(self, context, value) -> None:
         """Wrenches on the fittings (6 f,) and on the nodes (6 k,), W."""
@@ -243,6 +235,10 @@ class RigidAttachment(Attachment):
         self._world = plant.world_frame()
         self._zero = np.zeros(plant.num_velocities())
         super().__init__(plant, points)
+        self._rigid = self._pattern.stiffness == 0.0
+        # Fittings are roots of the plant's trees, whose velocities are contiguous.
+        starts = sorted({0, *self._rows[::6].tolist()})
+        self._blocks = np.array([*starts, plant.num_velocities()])
 
     def _sources(self) -> set:
         self._context: Any = self.DeclareCacheEntry(
@@ -281,35 +277,33 @@ class RigidAttachment(Attachment):
 
     def _load(self, context: Context, gap: Gap) -> Float64:
         plant_context = self._context.Eval(context)
-        rows, held = self._rows, gap.rows
-        size = len(gap.gap)
         # The velocities of a fitting on its floating joint are its spatial velocity in
         # W: J picks rows, and no velocity-dependent acceleration arises.
-        right = np.zeros((len(self._zero), size + 1))
-        if held is None:
-            right[rows, np.arange(size)] = 1.0
-        else:
-            right[rows, :size] = held.on_fitting.T
-        right[:, size] = self._free_force(context, plant_context)
-        mass = self._plant.CalcMassMatrix(plant_context)
-        response = np.linalg.solve(mass, right)[rows]
-        k = 6 * self._k
+        matrix, free = kernels.fitting_response(
+            self._plant.CalcMassMatrix(plant_context),
+            self._free_force(context, plant_context),
+            self._rows,
+            self._blocks,
+        )
+        k, held = 6 * self._k, gap.rows
         compliance = self._compliance.Eval(context).reshape(k, k)
-        acceleration = self._acceleration.Eval(context)
-        stabilised = 2.0 * self._alpha * gap.rate + self._beta**2 * gap.gap
+        wanted = self._acceleration.Eval(context)
         if held is not None:
-            response = held.on_fitting @ response
+            matrix = held.on_fitting @ matrix @ held.on_fitting.T
+            free = held.on_fitting @ free
             compliance = held.on_node @ compliance @ held.on_node.T
-            acceleration = held.on_node @ acceleration - held.bias
-        matrix = response[:, :size] + compliance
-        wanted = acceleration - response[:, size] - stabilised
-        elastic = self._pattern.stiffness > 0.0
-        if not elastic.any():
-            return np.linalg.solve(matrix, wanted)
+            wanted = held.on_node @ wanted - held.bias
+        stabilised = 2.0 * self._alpha * gap.rate + self._beta**2 * gap.gap
+        matrix = matrix + compliance
+        wanted = wanted - free - stabilised
+        rigid = self._rigid
+        if rigid.all():
+            return kernels.solve_positive(matrix, wanted)
         load = -(self._pattern.stiffness * gap.gap + self._pattern.damping * gap.rate)
-        wanted = wanted - matrix[:, elastic] @ load[elastic]
-        rigid = ~elastic
-        load[rigid] = np.linalg.solve(matrix[np.ix_(rigid, rigid)], wanted[rigid])
+        wanted = wanted - matrix[:, ~rigid] @ load[~rigid]
+        load[rigid] = kernels.solve_positive(
+            matrix[np.ix_(rigid, rigid)], wanted[rigid]
+        )
         return load
 
 

@@ -12,7 +12,6 @@ what is neglected is of the order of deformation over size of the body.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -27,21 +26,17 @@ from pydrake.systems.framework import (
     ValueProducer,
 )
 
+from systems import kernels
 from systems.modal_body import ModalBody
-from systems.modal_kinematics import NodeMotion, Nodes, mode_scales, node_motion
-from systems.rotations import quaternion_rate, rotation_from_quaternion
+from systems.modal_kinematics import Nodes, mode_scales, node_motion
 
 Float64 = npt.NDArray[np.float64]
 
-
-@dataclass(frozen=True, slots=True)
-class _Motion:
-    """The state, taken apart, and the attachment nodes' motion."""
-
-    x: Float64
-    R_WB: Float64
-    amplitudes: Float64
-    nodes: NodeMotion
+# Rate at which the quaternion's length is pulled back to one, 1/s.
+_STABILISATION = 10.0
+# A damping matrix is taken as diagonal where its other elements are below this share of
+# the geometric mean of their diagonal ones: rounding of the projection.
+_UNCOUPLED = 1e-8
 
 
 class FlexibleAirframe(LeafSystem):
@@ -103,13 +98,10 @@ class FlexibleAirframe(LeafSystem):
         self._mass, self._inertia = body.mass, body.inertia_G
         self._modal_mass = body.modal_mass * scale**2
         self._stiffness = (2.0 * np.pi * body.frequency) ** 2
-        self._damping = (
-            body.modal_damping * np.outer(scale, scale) / self._modal_mass[:, None]
-        )
-        self._inverse_inertia = np.linalg.inv(body.inertia_G)
+        self._damping = _damping_per_mass(body, scale)
         self._inverse_mass = np.zeros((6, 6))
         self._inverse_mass[:3, :3] = np.eye(3) / body.mass
-        self._inverse_mass[3:, 3:] = self._inverse_inertia
+        self._inverse_mass[3:, 3:] = np.linalg.inv(body.inertia_G)
 
         x0 = np.zeros(13 + 2 * n)
         x0[3] = 1.0
@@ -130,7 +122,8 @@ class FlexibleAirframe(LeafSystem):
             producer = ValueProducer(allocate=lambda: Value(object()), calc=calc)
             return self.DeclareCacheEntry(name, producer, set(tickets))
 
-        self._motion = entry("motion", self._calc_motion, self.xc_ticket())
+        state = self.xc_ticket()
+        self._motion = entry("motion", self._calc_motion, state)
         motion = self._motion.ticket()
         self._free = entry(
             "free_acceleration",
@@ -146,9 +139,7 @@ class FlexibleAirframe(LeafSystem):
             self._free.ticket(),
             self._wrench.ticket(),
         )
-        self._monitor_motion = entry(
-            "monitor_motion", self._calc_monitor_motion, motion
-        )
+        self._monitor_motion = entry("monitor_motion", self._calc_monitor_motion, state)
 
     def _declare_node_ports(self, k: int) -> None:
         motion = {self._motion.ticket()}
@@ -165,7 +156,7 @@ class FlexibleAirframe(LeafSystem):
 
     def _declare_monitor_ports(self, k: int) -> None:
         motion = {self._monitor_motion.ticket()}
-        loaded = motion | {self._motion.ticket(), self._loaded.ticket()}
+        loaded = motion | {self._loaded.ticket()}
         declare = self.DeclareVectorOutputPort
         declare("monitor_pose", 12 * k, self._calc_monitor_pose, motion)
         declare("monitor_velocity", 6 * k, self._calc_monitor_velocity, motion)
@@ -221,92 +212,78 @@ class FlexibleAirframe(LeafSystem):
 
     def _calc_motion(self, context, value) -> None:
         x = context.get_continuous_state_vector().CopyToVector()
-        R_WB = rotation_from_quaternion(x[3:7])
-        amplitudes = x[13:].reshape(2, self.n)
-        nodes = node_motion(self._nodes, R_WB, x[:3], x[7:13], amplitudes)
-        value.set_value(_Motion(x, R_WB, amplitudes, nodes))
+        value.set_value((x, node_motion(self._nodes, x)))
 
     def _calc_monitor_motion(self, context, value) -> None:
-        m = self._motion.Eval(context)
-        motion = node_motion(self._monitors, m.R_WB, m.x[:3], m.x[7:13], m.amplitudes)
-        value.set_value(motion)
+        x = context.get_continuous_state_vector().CopyToVector()
+        value.set_value(node_motion(self._monitors, x))
 
     def _calc_free(self, context, value) -> None:
         """Generalised accelerations [a_WG in W; ω' in B] (6) and η" (n), no wrench."""
-        m = self._motion.Eval(context)
-        w_B = m.x[10:13]
-        rigid = np.zeros(6)
-        a, b, c = w_B.tolist()
-        h, i, j = (self._inertia @ w_B).tolist()
-        rigid[3:] = c * i - b * j, a * j - c * h, b * h - a * i
-        eta, rate = m.amplitudes
-        elastic = -self._stiffness * eta - self._damping @ rate
+        rigid, elastic = kernels.free_acceleration(
+            self._motion.Eval(context)[0],
+            self._stiffness,
+            self._damping,
+            self._inertia,
+            self._inverse_mass,
+            context.get_numeric_parameter(self._gravity).GetAtIndex(0),
+        )
         if self._external.HasValue(context):
             load = self._external.Eval(context)
-            rigid += load[:6]
+            rigid += self._inverse_mass @ load[:6]
             elastic += self._scale * load[6:] / self._modal_mass
-        rigid = self._inverse_mass @ rigid
-        rigid[2] -= context.get_numeric_parameter(self._gravity).GetAtIndex(0)
         value.set_value((rigid, elastic))
 
     def _calc_loaded(self, context, value) -> None:
-        nodes = self._motion.Eval(context).nodes
-        rigid, elastic = self._free.Eval(context)
-        wrench = self._wrench.Eval(context)
-        modal = (wrench @ nodes.elastic) @ self._nodes.shape
-        value.set_value(
-            (
-                rigid + self._inverse_mass @ (wrench @ nodes.rigid),
-                elastic + modal / self._modal_mass,
-            )
+        motion = self._motion.Eval(context)[1]
+        loaded = kernels.loaded_acceleration(
+            motion.R_WB,
+            motion.rigid,
+            motion.turn,
+            self._nodes.shape,
+            self._inverse_mass,
+            self._modal_mass,
+            *self._free.Eval(context),
+            self._wrench.Eval(context),
         )
+        value.set_value(loaded)
 
     def DoCalcTimeDerivatives(
         self, context: Context, derivatives: ContinuousState
     ) -> None:
-        x = self._motion.Eval(context).x
-        rigid, elastic = self._loaded.Eval(context)
-        out = np.empty_like(x)
-        out[:3] = x[7:10]
-        out[3:7] = quaternion_rate(x[3:7], x[10:13])
-        out[7:13] = rigid
-        out[13 : 13 + self.n] = x[13 + self.n :]
-        out[13 + self.n :] = elastic
-        derivatives.SetFromVector(out)
+        x = self._motion.Eval(context)[0]
+        rate = kernels.state_rate(x, *self._loaded.Eval(context), _STABILISATION)
+        derivatives.SetFromVector(rate)
 
     def _calc_node_pose(self, context, output) -> None:
-        output.SetFromVector(_stack_pose(self._motion.Eval(context).nodes))
+        output.SetFromVector(self._motion.Eval(context)[1].pose)
 
     def _calc_node_velocity(self, context, output) -> None:
-        output.SetFromVector(self._motion.Eval(context).nodes.velocity)
+        output.SetFromVector(self._motion.Eval(context)[1].velocity)
 
     def _calc_node_compliance(self, context, output) -> None:
-        nodes = self._motion.Eval(context).nodes
-        rigid = nodes.rigid @ self._inverse_mass @ nodes.rigid.T
-        elastic = nodes.elastic @ self._nodes.compliance @ nodes.elastic.T
-        output.SetFromVector((rigid + elastic).ravel())
+        motion = self._motion.Eval(context)[1]
+        compliance = motion.compliance(self._nodes, self._inverse_mass)
+        output.SetFromVector(compliance.ravel())
 
     def _calc_node_free_acceleration(self, context, output) -> None:
-        nodes = self._motion.Eval(context).nodes
-        free = self._free.Eval(context)
-        output.SetFromVector(_acceleration(nodes, self._nodes, *free))
+        motion, free = self._motion.Eval(context)[1], self._free.Eval(context)
+        output.SetFromVector(motion.acceleration(self._nodes, *free))
 
     def _calc_node_acceleration(self, context, output) -> None:
-        nodes = self._motion.Eval(context).nodes
-        loaded = self._loaded.Eval(context)
-        output.SetFromVector(_acceleration(nodes, self._nodes, *loaded))
+        motion, loaded = self._motion.Eval(context)[1], self._loaded.Eval(context)
+        output.SetFromVector(motion.acceleration(self._nodes, *loaded))
 
     def _calc_monitor_pose(self, context, output) -> None:
-        output.SetFromVector(_stack_pose(self._monitor_motion.Eval(context)))
+        output.SetFromVector(self._monitor_motion.Eval(context).pose)
 
     def _calc_monitor_velocity(self, context, output) -> None:
         output.SetFromVector(self._monitor_motion.Eval(context).velocity)
 
     def _calc_monitor_acceleration(self, context, output) -> None:
-        nodes = self._monitor_motion.Eval(context)
-        loaded = self._loaded.Eval(context)
-        in_W = _acceleration(nodes, self._monitors, *loaded).reshape(-1, 2, 3)
-        in_B = in_W @ self._motion.Eval(context).R_WB
+        motion = self._monitor_motion.Eval(context)
+        in_W = motion.acceleration(self._monitors, *self._loaded.Eval(context))
+        in_B = in_W.reshape(-1, 2, 3) @ motion.R_WB
         output.SetFromVector(in_B[:, ::-1].ravel())
 
     def _calc_pose(self, context, output) -> None:
@@ -320,8 +297,8 @@ class FlexibleAirframe(LeafSystem):
 
     def _calc_dissipated_power(self, context, output) -> None:
         x = context.get_continuous_state_vector().CopyToVector()
-        rate = x[13 + self.n :]
-        output.SetAtIndex(0, (self._modal_mass * rate) @ (self._damping @ rate))
+        power = kernels.damping_power(x, self._modal_mass, self._damping)
+        output.SetAtIndex(0, power)
 
     def _calc_external_power(self, context, output) -> None:
         power = 0.0
@@ -341,12 +318,12 @@ class FlexibleAirframe(LeafSystem):
         output.SetAtIndex(0, 0.5 * twice)
 
 
-def _acceleration(
-    motion: NodeMotion, nodes: Nodes, rigid: Float64, elastic: Float64
-) -> Float64:
-    return motion.rigid @ rigid + motion.elastic @ (nodes.shape @ elastic) + motion.bias
-
-
-def _stack_pose(motion: NodeMotion) -> Float64:
-    k = len(motion.p)
-    return np.concatenate([motion.R.reshape(k, 9), motion.p], axis=1).ravel()
+def _damping_per_mass(body: ModalBody, scale: Float64) -> Float64:
+    """(n, 1) per scaled modal mass, or (n, n) where it couples modes, 1/s."""
+    damping, diagonal = body.modal_damping, np.diag(body.modal_damping)
+    others = np.abs(damping - np.diag(diagonal))
+    root = np.sqrt(np.abs(diagonal))
+    if (others <= _UNCOUPLED * np.outer(root, root)).all():
+        return np.ascontiguousarray((diagonal / body.modal_mass)[:, None])
+    mass = body.modal_mass * scale**2
+    return damping * np.outer(scale, scale) / mass[:, None]

@@ -17,8 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from systems import kernels
 from systems.modal_body import ModalBody
-from systems.rotations import rotation_kinematics, skew
 
 Float64 = npt.NDArray[np.float64]
 
@@ -46,15 +46,12 @@ class Nodes:
         p_GN: (k, 3) undeformed positions from the centre of gravity, B axes, m.
         shape: (6 k, n) scaled modes, per node [rotation; translation], B axes.
         compliance: (6 k, 6 k) shape m⁻¹ shapeᵀ, accelerations per wrench through the
-            modes alone.
-        diagonal_blocks: (18 k,) places of the 3 by 3 blocks on the diagonal of a
-            flattened (6 k, 6 k) matrix.
+            modes alone, B axes.
     """
 
     p_GN: Float64
     shape: Float64
     compliance: Float64
-    diagonal_blocks: npt.NDArray[np.int64]
 
     @classmethod
     def of(cls, body: ModalBody, node_id: npt.ArrayLike, scale: Float64) -> "Nodes":
@@ -63,11 +60,7 @@ class Nodes:
         shape = np.stack([body.rotation[rows], body.translation[rows]], axis=1)
         shape = np.ascontiguousarray(shape.reshape(6 * len(rows), body.n) * scale)
         compliance = (shape / (body.modal_mass * scale**2)) @ shape.T
-        k = len(rows)
-        places = np.arange(36 * k * k).reshape(2 * k, 3, 2 * k, 3)
-        i = np.arange(2 * k)
-        blocks = places[i, :, i, :].ravel()
-        return cls(body.p_BN[rows] - body.p_BG, shape, compliance, blocks)
+        return cls(body.p_BN[rows] - body.p_BG, shape, compliance)
 
     def __len__(self) -> int:
         return len(self.p_GN)
@@ -77,72 +70,56 @@ class Nodes:
 class NodeMotion:
     """Where k nodes are and how they move; world frame W.
 
+    The columns of `rigid` and the blocks `turn` and R_WB (of rotations and of
+    translations of each node) are the Jacobian: velocity = rigid [v_WG; ω_B] +
+    diag(turn, R_WB, ...) shape η'.
+
     Attributes:
-        R: (k, 3, 3) orientations R_WN.
-        p: (k, 3) positions p_WN, m.
-        velocity: (6 k,) per node [angular; linear], rad/s and m/s.
+        R_WB: (3, 3) orientation of the floating frame.
+        pose: (12 k,) per node R_WN by rows and p_WN, m.
+        velocity: (6 k,) per node, rad/s and m/s.
         bias: (6 k,) accelerations at zero generalised accelerations.
         rigid: (6 k, 6) velocity per [v_WG in W; ω_B in B].
-        elastic: (6 k, 6 k) velocity per shape @ η'; block diagonal.
+        turn: (k, 3, 3) R_WB J_l.
     """
 
-    R: Float64
-    p: Float64
+    R_WB: Float64
+    pose: Float64
     velocity: Float64
     bias: Float64
     rigid: Float64
-    elastic: Float64
+    turn: Float64
+
+    def acceleration(self, nodes: Nodes, rigid: Float64, modes: Float64) -> Float64:
+        """(6 k,) accelerations, W.
+
+        Args:
+            nodes: whose motion this is.
+            rigid: (6,) [a_WG in W; ω' in B].
+            modes: (n,) scaled η".
+        """
+        return kernels.node_acceleration(
+            self.R_WB, self.rigid, self.turn, self.bias, nodes.shape, rigid, modes
+        )
+
+    def compliance(self, nodes: Nodes, inverse_mass: Float64) -> Float64:
+        """(6 k, 6 k) accelerations per wrench at the nodes, W.
+
+        Args:
+            nodes: whose motion this is.
+            inverse_mass: (6, 6) of [v_WG; ω_B].
+        """
+        return kernels.node_compliance(
+            self.R_WB, self.rigid, self.turn, nodes.compliance, inverse_mass
+        )
 
 
-def node_motion(
-    nodes: Nodes,
-    R_WB: Float64,
-    p_WG: Float64,
-    rigid_velocity: Float64,
-    amplitudes: Float64,
-) -> NodeMotion:
+def node_motion(nodes: Nodes, x: Float64) -> NodeMotion:
     """Motion of the nodes from the state of the body.
 
     Args:
         nodes: the nodes.
-        R_WB: (3, 3) orientation of the floating frame.
-        p_WG: (3,) position of the centre of gravity, m.
-        rigid_velocity: (6,) [v_WG in W, m/s; ω_B in B, rad/s].
-        amplitudes: (2, n) scaled modal amplitudes η and their rates η'.
+        x: (13 + 2 n,) p_WG (m), quaternion of R_WB, v_WG (m/s), ω_B (rad/s), scaled
+            modal amplitudes η and their rates η'.
     """
-    k = len(nodes)
-    elastic_B = amplitudes @ nodes.shape.T
-    (theta, shift), (theta_rate, shift_rate) = elastic_B.reshape(2, k, 2, 3).swapaxes(
-        1, 2
-    )
-    turn, jacobian, jacobian_rate = rotation_kinematics(theta, theta_rate)
-    r = nodes.p_GN + shift
-    R_BW = R_WB.T
-
-    rigid = np.zeros((k, 2, 3, 6))
-    rigid[:, 0, :, 3:] = R_WB
-    rigid[:, 1, :, :3] = _ONE
-    rigid[:, 1, :, 3:] = R_WB @ skew(-r)
-    rigid = rigid.reshape(6 * k, 6)
-    blocks = np.empty((k, 2, 3, 3))
-    blocks[:, 0] = R_WB @ jacobian
-    blocks[:, 1] = R_WB
-    elastic = np.zeros(36 * k * k)
-    elastic[nodes.diagonal_blocks] = blocks.ravel()
-    elastic = elastic.reshape(6 * k, 6 * k)
-
-    spin = skew(-rigid_velocity[3:])  # acts from the right on rows
-    bias = np.empty((k, 2, 3))
-    bias[:, 0] = (jacobian @ theta_rate[:, :, None])[:, :, 0] @ spin + jacobian_rate
-    bias[:, 1] = (r @ spin + 2.0 * shift_rate) @ spin
-    return NodeMotion(
-        R=R_WB @ turn,
-        p=p_WG + r @ R_BW,
-        velocity=rigid @ rigid_velocity + elastic @ elastic_B[1],
-        bias=(bias @ R_BW).ravel(),
-        rigid=rigid,
-        elastic=elastic,
-    )
-
-
-_ONE = np.eye(3)
+    return NodeMotion(*kernels.node_motion(x, nodes.shape, nodes.p_GN))

@@ -148,10 +148,11 @@ def test_bushing_moment_has_a_potential_at_any_angle(angle):
     energies = []
     for t in (-h, h):
         turned = inputs["plant_state"].copy()
-        for q, rate in zip(system._quaternions, gap[:, 1]):
+        for first, rate in zip(system._positions, gap[:, 1]):
+            q = slice(first, first + 4)
             R = exp(t * rate[None, :3])[0] @ rotation_from_quaternion(turned[q])
             turned[q] = quaternion_from_rotation(R)
-        turned[system._translations] += t * gap[:, 1, 3:]
+            turned[first + 4 : first + 7] += t * rate[3:]
         system.GetInputPort("plant_state").FixValue(context, turned)
         energies.append(_eval(system, context, "energy")[0])
     power = -(wrench * gap[:, 1]).sum()
