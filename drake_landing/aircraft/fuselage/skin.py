@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from drake_landing.aircraft.facts import facts, table
+from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import SKIN, Hull
 from drake_landing.aircraft.model import ModelBuilder
 
@@ -53,9 +53,12 @@ def add_stringer_material(model: ModelBuilder) -> None:
 
 def stiffened_sheet(model: ModelBuilder, name: str, thickness: float) -> int:
     """Laminate of stringers and skin; the grids are on the skin's middle surface."""
-    sheet = facts("materials")["al2024"]
+    sheet, smeared = (
+        facts("materials")["al2024"],
+        facts("fuselage")["stringer_thickness"],
+    )
     height = facts("fuselage_shell")["stringer_layer"]["thickness"]
-    stringers = facts("materials")["al7075"]["rho"] * stringer_thickness()
+    stringers = facts("materials")["al7075"]["rho"] * smeared
     return model.laminate_property(
         f"{name} {thickness * 1e3:.1f} mm",
         -height - thickness / 2,
@@ -64,10 +67,3 @@ def stiffened_sheet(model: ModelBuilder, name: str, thickness: float) -> int:
             (sheet["id"], thickness, sheet["rho"] * thickness),
         ],
     )
-
-
-def stringer_thickness() -> float:
-    """Area of the stringers over their pitch, m."""
-    rows = table("profiles")
-    area = float(rows[rows.profile == "stringer"].area.iloc[0])
-    return area / facts("fuselage_shell")["stringer_layer"]["pitch"]
