@@ -123,7 +123,6 @@ class Solid(DenseBlock):
         )
         weight = rule.weights * np.linalg.det(jacobians(self.nodes, slope))
         product = np.einsum("eq,qi,qj->eij", weight, value, value, optimize=True)
-        product *= self.rho[:, None, None]
         if not coupled:
             diagonal = product.sum(axis=2)
             if self.shape.quadratic:
@@ -131,6 +130,8 @@ class Solid(DenseBlock):
                 diagonal = np.einsum("eii->ei", product)
                 diagonal = diagonal * total / diagonal.sum(axis=1, keepdims=True)
             product = diagonal[:, :, None] * np.eye(self.shape.nodes)
+        # Last: the scaling of quadratic elements divides by the mass of the shape.
+        product = product * self.rho[:, None, None]
         size = 3 * self.shape.nodes
         full = product[:, :, None, :, None] * np.eye(3)[:, None, :]
         return full.reshape(-1, size, size)

@@ -232,6 +232,13 @@ def test_mass_is_density_times_volume_and_positive(kind, coupled):
     assert np.linalg.eigvalsh(mass)[0] > 0.0
 
 
+@pytest.mark.parametrize("kind", sorted(NATURAL))
+def test_no_density_is_no_mass(kind):
+    shape, natural = NATURAL[kind]
+    block = solids(shape, natural, np.arange(len(natural))[None])
+    assert np.array_equal(block.mass(coupled=False), 0.0 * block.stiffness())
+
+
 def test_one_row_of_bricks_bends_like_a_beam():
     """In-plane bending by an end moment, one element high: no locking."""
     for aspect in (1.0, 5.0):
