@@ -62,7 +62,7 @@ def tire_parameters(data: Tyre) -> TireParameters:
         radius=data.radius,
         stiffness=stiffness,
         nominal_force=data.nominal_force,
-        damping=data.damping,
+        damping=_table(data.damping_table) or data.damping,
         bottoming_deflection=data.bottoming_deflection,
         bottoming_stiffness=data.bottoming_stiffness,
         slip=slip,

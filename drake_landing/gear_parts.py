@@ -94,6 +94,11 @@ class Tyre(Data):
         "instead of stiffness",
     )
     damping: NotNegative = Field(default=0.0, description="vertical damping, N s/m")
+    damping_table: Table | None = Field(
+        default=None,
+        description="deflection (m, ascending) against vertical damping (N s/m), from "
+        "[0, 0]; instead of damping",
+    )
     nominal_force: NotNegative = Field(
         default=0.0, description="F_zN, subtracted from the vertical force, N"
     )
@@ -128,6 +133,8 @@ class Tyre(Data):
     def _one_law(self) -> Self:
         if (self.stiffness is None) == (self.load_table is None):
             raise ValueError("give either stiffness or load_table")
+        if self.damping > 0.0 and self.damping_table is not None:
+            raise ValueError("give either damping or damping_table")
         return self
 
 
