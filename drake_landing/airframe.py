@@ -13,10 +13,13 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.axes import rotation_AB
-from drake_landing.basis import Basis, elastic_basis
+from drake_landing.basis import Basis, elastic_basis, with_residual_vectors
+from drake_landing.cache import Cache
 from drake_landing.case import Airframe
 from drake_landing.inputs import Aircraft
 from drake_landing.progress import Reporter, Silent
+from drake_landing.scenario import Scenario
+from drake_landing.selection import relevance_of, select_modes
 from drake_landing.skeleton import Skeleton, element_edges
 from drake_landing.transient_deck import model_selections
 from fem.deck.reader import read_deck
@@ -88,7 +91,11 @@ class AirframeModel:
 
 
 def load_airframe(
-    airframe: Airframe, aircraft: Aircraft, progress: Reporter | None = None
+    airframe: Airframe,
+    aircraft: Aircraft,
+    progress: Reporter | None = None,
+    scenario: Scenario | None = None,
+    cache: Cache | None = None,
 ) -> AirframeModel:
     """Reads the deck, solves for the modes, makes the modal body.
 
@@ -96,6 +103,8 @@ def load_airframe(
         airframe: of the case.
         aircraft: its deck and nodes.
         progress: told the modes found.
+        scenario: what the gears' pulses are expected from, where relevance selects.
+        cache: where modes of the same matrices may be found.
 
     Raises:
         InputError: everything that is wrong with the deck or the nodes.
@@ -108,10 +117,17 @@ def load_airframe(
         airframe,
         list(aircraft.nodes),
         lambda done, wanted: tell.share(done / max(wanted, 1), f"{done} modes"),
+        cache=cache,
     )
+    if airframe.select.by_relevance:
+        if scenario is None:
+            raise ValueError(f"select '{airframe.select}' needs a scenario")
+        relevance = relevance_of(structure, basis, airframe, aircraft, scenario)
+        basis = select_modes(basis, relevance, airframe.select)
+    if airframe.residual_vectors:
+        basis = with_residual_vectors(structure, basis, aircraft.attachment_nodes)
     R_AB = rotation_AB(airframe.axes)
-    nodes = sorted({*aircraft.monitoring.values(), *aircraft.attachment_nodes})
-    body = modal_body(structure, basis, nodes, R_AB)
+    body = modal_body(structure, basis, aircraft.multibody_nodes, R_AB)
     return AirframeModel(structure=structure, basis=basis, body=body, R_AB=R_AB)
 
 

@@ -49,6 +49,7 @@ _LOGGED = {
     "shock_absorber": ("force", "components", "energy"),
     "brake": ("torque",),
     "pitch_damper": ("torque", "energy"),
+    "lift": ("force",),
 }
 
 
@@ -165,8 +166,14 @@ def MakeLandingDiagram(
         raise ValueError(f"landing diagram: lift with gravity {gravity} m/s²")
     else:
         carrying = AddLift(builder, airframe, body, gears, lift, gravity)
-    systems = {"plant": plant, "airframe": airframe, "attachment": held}
+    systems: dict[str, Any] = {
+        "plant": plant,
+        "airframe": airframe,
+        "attachment": held,
+    }
     systems |= parts.by_name
+    if carrying is not None:
+        systems["lift"] = carrying
     budget = None
     if energy_budget:
         others = [system for name, system in systems.items() if name != "plant"]

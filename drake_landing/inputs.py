@@ -6,6 +6,7 @@ from pathlib import Path
 
 from drake_landing.case import Case
 from drake_landing.gear import LandingGear
+from drake_landing.scenario import Lift, Scenario
 from fem.errors import InputError
 
 
@@ -20,6 +21,7 @@ class Aircraft:
         gears: in the axes of the deck.
         monitoring: point -> grid id.
         interface: grids that a reduction keeps, beside attachment and monitoring.
+        scenario: of the case, with the nodes that carry the lift.
         notices: what the user should know.
     """
 
@@ -28,6 +30,7 @@ class Aircraft:
     deck: Path
     gears: tuple[LandingGear, ...]
     monitoring: Mapping[str, int]
+    scenario: Scenario
     interface: tuple[int, ...] = ()
     notices: tuple[str, ...] = ()
 
@@ -37,9 +40,23 @@ class Aircraft:
         return tuple(node for gear in self.gears for node in gear.attachments.values())
 
     @property
+    def lift_nodes(self) -> tuple[int, ...]:
+        """Grids that carry the lift; none where it balances the weight unseen."""
+        lift = self.scenario.lift
+        return lift.nodes if isinstance(lift, Lift) else ()
+
+    @property
+    def multibody_nodes(self) -> list[int]:
+        """Grids that the multibody model knows, ascending."""
+        monitored = self.monitoring.values()
+        return sorted({*monitored, *self.attachment_nodes, *self.lift_nodes})
+
+    @property
     def nodes(self) -> dict[int, str]:
         """Grids that must exist -> what for."""
-        wanted = {g: f"monitoring point {name}" for name, g in self.monitoring.items()}
+        wanted = dict.fromkeys(self.lift_nodes, "node of the lift")
+        for name, grid in self.monitoring.items():
+            wanted[grid] = f"monitoring point {name}"
         for gear in self.gears:
             for name, node in gear.attachments.items():
                 wanted[node] = f"attachment node of gear {name}"
@@ -64,20 +81,37 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             deck=deck,
             gears=tuple(case.gears),
             monitoring=airframe.monitoring,
+            scenario=_with_lift_nodes(case.scenario),
             interface=airframe.interface,
         )
     from drake_landing.aircraft import write_model
+    from drake_landing.aircraft.reference_axis import reference_nodes
 
     out.mkdir(parents=True, exist_ok=True)
     model = write_model(airframe.model, out / "airframe.bdf", airframe.topology)
+    wing = [reference_nodes()[name].ids for name in ("wing_left", "wing_right")]
     return Aircraft(
         name=model.name,
         topology=model.topology,
         deck=out / "airframe.bdf",
         gears=model.gears if case.gears == "d150" else tuple(case.gears),
         monitoring={**model.monitoring, **airframe.monitoring},
+        scenario=_with_lift_nodes(case.scenario, tuple(sorted({*wing[0], *wing[1]}))),
         interface=tuple(sorted({*model.interface, *airframe.interface})),
     )
+
+
+def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario:
+    """Those of the built-in model where the case has none."""
+    lift = scenario.lift
+    if not isinstance(lift, Lift) or lift.nodes:
+        return scenario
+    if not wing:
+        raise InputError(
+            "scenario.lift.nodes: none, expected the grids of the deck that carry the "
+            "lift, round the centre of gravity"
+        )
+    return scenario.model_copy(update={"lift": lift.model_copy(update={"nodes": wing})})
 
 
 def write_model_deck(level: str, path: Path) -> str:

@@ -130,7 +130,7 @@ PRESETS: dict[PresetName, Preset] = {
         remarks="a two-point landing, long enough for the gears to reach their "
         "extension stops in the air; compare the acceleration of the unsprung parts "
         "with the 20 g of 25.487(b)",
-        duration=1.5,
+        duration=1.2,
     ),
     "taxi_bump": Preset(
         paragraph="25.491",

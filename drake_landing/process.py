@@ -15,6 +15,7 @@ import pandas as pd
 
 from drake_landing.airframe import AirframeModel, load_airframe
 from drake_landing.axes import rotation_AB
+from drake_landing.cache import Cache
 from drake_landing.case import Case
 from drake_landing.cases_io import case_text
 from drake_landing.comparison import RunLabel, comparison_table
@@ -74,14 +75,18 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
 
     stages.begin("reading the airframe")
     aircraft = prepare_aircraft(case, out)
-    airframe = load_airframe(case.airframe, aircraft, stages.progress)
+    airframe = load_airframe(
+        case.airframe, aircraft, stages.progress, case.scenario, Cache.of_user()
+    )
     R_AB = rotation_AB(case.airframe.axes)
 
     stages.begin(f"landing (elastic modes in the multibody model: {airframe.body.n})")
     points = aircraft.monitoring
-    landing = build_landing(airframe.body, aircraft.gears, points, R_AB, case.scenario)
+    landing = build_landing(
+        airframe.body, aircraft.gears, points, R_AB, aircraft.scenario
+    )
     history = fly(
-        landing, case.scenario, case.simulation, points, R_AB, stages.progress
+        landing, aircraft.scenario, case.simulation, points, R_AB, stages.progress
     )
 
     stages.begin("handing over the attachment loads")
