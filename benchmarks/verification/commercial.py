@@ -1,4 +1,4 @@
-"""Reference decks with the figures that MSC, NX, NASTRAN-95 and others print for them."""
+"""Reference decks with the figures that MSC, NX, NASTRAN-95 and others print."""
 
 import json
 from pathlib import Path
@@ -211,9 +211,7 @@ def line_elements_transient(references: Path) -> list[Row]:
     data = table.data[first_times(table)]
     nodes = table.node_gridtype[:, 0].tolist()
     grids = [g for g in ours["grid_id"] if g != 7]  # the end of the CBEND
-    mine = ours["transient/10/displacement"][
-        :, np.searchsorted(ours["grid_id"], grids)
-    ]
+    mine = ours["transient/10/displacement"][:, np.searchsorted(ours["grid_id"], grids)]
     other = data[:, [nodes.index(g) for g in grids]]
     rows.append(field(case, "histories of all grids", mine, other, "NX, OP2"))
     points = ours["scalar_point_id"]
@@ -241,9 +239,7 @@ def cantilever_bar(references: Path) -> list[Row]:
     ours = run(folder / "cant_a_tran.bdf")
     tip = ours["transient/1/displacement"][:, 10]
     rows = [
-        listed(
-            case, "frequencies, Hz", modes, n95["hz"][: len(modes)], "NASTRAN-95"
-        ),
+        listed(case, "frequencies, Hz", modes, n95["hz"][: len(modes)], "NASTRAN-95"),
         listed(
             case,
             "lowest four, Hz",
@@ -307,9 +303,7 @@ def cantilever_plate(references: Path) -> list[Row]:
         rows.append(
             listed(case, "frequencies, Hz", modes[:3], hz, solver, target=target)
         )
-        rows.append(
-            figure(case, "static corner uz", static, uz, solver, target=target)
-        )
+        rows.append(figure(case, "static corner uz", static, uz, solver, target=target))
         rows.append(figure(case, "peak uz", step.max(), peak, solver, target=target))
     return rows
 
@@ -333,21 +327,21 @@ def reductions(references: Path) -> list[Row]:
         parts, whole = _superelements(folder, count)
         for text, ours, theirs in (
             ("modes of part 1, Hz", parts[0], entry["modes_hz"][0]),
-            ("modes of part 2, Hz", parts[1], entry["modes_hz"][1 % len(entry["modes_hz"])]),
+            (
+                "modes of part 2, Hz",
+                parts[1],
+                entry["modes_hz"][1 % len(entry["modes_hz"])],
+            ),
             ("modes of the whole, Hz", whole, entry["modes_hz"][-1]),
         ):
             if count == 0 and "part" in text:
                 continue
             size = min(len(ours), len(theirs))
-            rows.append(
-                listed(name, text, ours[:size], theirs[:size], entry["solver"])
-            )
+            rows.append(listed(name, text, ours[:size], theirs[:size], entry["solver"]))
     return rows
 
 
-def _superelements(
-    folder: Path, count: int
-) -> tuple[list[np.ndarray], np.ndarray]:
+def _superelements(folder: Path, count: int) -> tuple[list[np.ndarray], np.ndarray]:
     """Fixed-interface modes of both parts, and modes of the two put together.
 
     The parts meet at grid 6 alone: with it held their interiors are uncoupled.

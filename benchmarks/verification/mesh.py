@@ -1,6 +1,7 @@
 """Generated decks: regular meshes as bulk data in text."""
 
 from collections.abc import Iterable
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -93,7 +94,7 @@ def box(nx: int, ny: int, nz: int) -> tuple[Float64, Int64]:
     heights = np.linspace(0, 1, nz + 1)
     points = np.concatenate([np.c_[flat, np.full(len(flat), z)] for z in heights])
     layers = [quads + k * len(flat) for k in range(nz + 1)]
-    bricks = [np.c_[below, above] for below, above in zip(layers, layers[1:])]
+    bricks = [np.c_[below, above] for below, above in pairwise(layers)]
     return points, np.concatenate(bricks)
 
 

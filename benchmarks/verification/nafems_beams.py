@@ -26,7 +26,9 @@ def double_cross(per_arm: int) -> str:
     bulk.add("PBAR", 1, 1, a * a, a**4 / 12, a**4 / 12, 0.141 * a**4)
     angles = np.arange(8) * np.pi / 4
     radii = 5.0 * np.arange(1, per_arm + 1) / per_arm
-    spokes = radii[None, :, None] * np.stack([np.cos(angles), np.sin(angles)], 1)[:, None]
+    spokes = (
+        radii[None, :, None] * np.stack([np.cos(angles), np.sin(angles)], 1)[:, None]
+    )
     xy = np.vstack([[0.0, 0.0], spokes.reshape(-1, 2)])
     bulk.grids(np.c_[xy, np.zeros(len(xy))])
     for arm in range(8):
@@ -42,7 +44,9 @@ def fv2() -> list[Row]:
     """Pin-ended double cross: formulas of bars pinned, and clamped and pinned."""
     c = np.sqrt(E / RHO * 0.125**2 / 12) / (2 * np.pi * 25.0)
     pinned, clamped = c * np.pi**2, c * 3.92660231**2
-    hz = {f"{n} per arm": run(double_cross(n))["modes/frequency_hz"] for n in (4, 8, 16)}
+    hz = {
+        f"{n} per arm": run(double_cross(n))["modes/frequency_hz"] for n in (4, 8, 16)
+    }
     rows = []
     for name, at, reference in (
         ("mode 1", 0, pinned),
@@ -52,7 +56,12 @@ def fv2() -> list[Row]:
     ):
         found = [(mesh, values[at]) for mesh, values in hz.items()]
         rows += convergence(
-            "FV2 double cross", f"{name}, Hz", found, reference, "closed form", target=1e-3
+            "FV2 double cross",
+            f"{name}, Hz",
+            found,
+            reference,
+            "closed form",
+            target=1e-3,
         )
     return rows
 
@@ -82,7 +91,11 @@ def fv4() -> list[Row]:
     for mode, theirs in enumerate(reference):
         found = [(f"{n} bars", values[mode]) for n, values in hz.items()]
         rows += convergence(
-            "FV4 off-centre masses", f"mode {mode + 1}, Hz", found, theirs, "NAFEMS R0015"
+            "FV4 off-centre masses",
+            f"mode {mode + 1}, Hz",
+            found,
+            theirs,
+            "NAFEMS R0015",
         )
     return rows
 
@@ -198,7 +211,7 @@ def euler_cantilever() -> list[Row]:
             bulk.grids(np.c_[x, 0 * x, 0 * x])
             at = np.arange(n)
             bulk.elements("CBAR", 1, np.c_[at, at + 1], 0.0, 1.0, 0.0)
-            bulk.fix("1345", at.tolist() + [n])
+            bulk.fix("1345", [*at.tolist(), n])
             if fixed:
                 bulk.fix("26", 0)
             hz = run(bulk.deck(103, MODES))["modes/frequency_hz"]
@@ -235,6 +248,11 @@ def damped_oscillator() -> list[Row]:
     wd = w * np.sqrt(1 - z * z)
     peak = 3.0 / (m * w * w) * (1 + np.exp(-z * w * np.pi / wd))
     rows += convergence(
-        "damped oscillator", "peak after a step", found, peak, "closed form", target=1e-3
+        "damped oscillator",
+        "peak after a step",
+        found,
+        peak,
+        "closed form",
+        target=1e-3,
     )
     return rows

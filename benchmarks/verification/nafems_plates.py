@@ -121,7 +121,11 @@ def tapered_membrane() -> list[Row]:
     for mode, theirs in enumerate(reference):
         found = [(mesh, values[mode]) for mesh, values in hz.items()]
         rows += convergence(
-            "FV32 tapered membrane", f"mode {mode + 1}, Hz", found, theirs, "NAFEMS R0015"
+            "FV32 tapered membrane",
+            f"mode {mode + 1}, Hz",
+            found,
+            theirs,
+            "NAFEMS R0015",
         )
     return rows
 
@@ -180,8 +184,15 @@ def solids() -> list[Row]:
     return rows
 
 
-def plate_step(n: int, thickness: float, pressure: float, damping: tuple[float, float],
-               steps: tuple[int, float], sol: int, case: str) -> str:
+def plate_step(
+    n: int,
+    thickness: float,
+    pressure: float,
+    damping: tuple[float, float],
+    steps: tuple[int, float],
+    sol: int,
+    case: str,
+) -> str:
     """A simply supported plate under a pressure that begins suddenly."""
     bulk = square_plate(n, "simple", thickness)
     bulk.add("PARAM", "ALPHA1", damping[0])

@@ -102,6 +102,8 @@ def _by_element(
         owner = getattr(table, "element_layer", None)
     owner = table.element if owner is None else owner[:, 0]
     data = table.data[first_times(table)].astype(float)
+    if card == "cbar" and table.get_headers()[0] == "station":
+        return _from_stations(data)[:, None]
     data = data if columns is None else data[..., columns]
     parts = []
     for element in ids:
@@ -115,6 +117,12 @@ def _by_element(
         for p in parts
     ]
     return np.stack(padded, axis=1)
+
+
+def _from_stations(data: np.ndarray) -> np.ndarray:
+    """(t, 8) forces of one CBAR from those at its stations (t, s, 7), the ends."""
+    first, last = data[:, 0], data[:, -1]
+    return np.concatenate([first[:, 1:3], last[:, 1:3], first[:, 3:]], axis=1)
 
 
 def _compare(

@@ -1,7 +1,7 @@
 """Plates in theory: independent figures where published ones are rounded or coarse.
 
-`ritz_frequencies` and `ritz_deflection` are Rayleigh-Ritz solutions of Kirchhoff's plate
-in products of Legendre polynomials, which satisfy the clamped edges by factors; with
+`ritz_frequencies` and `ritz_deflection` are Rayleigh-Ritz solutions of Kirchhoff's
+plate in products of Legendre polynomials, which satisfy the clamped edges by factors; with
 14 by 14 terms they have five digits. `StepSeries` is Navier's series of a simply
 supported Mindlin plate (no rotary inertia) under a sudden pressure.
 """
@@ -22,9 +22,7 @@ def _basis(terms: int, clamped: tuple[bool, bool]) -> list[Polynomial]:
     for root, holds in zip((-1.0, 1.0), clamped):
         if holds:
             edge = edge * Polynomial([-root, 1.0]) ** 2
-    return [
-        edge * Legendre.basis(k).convert(kind=Polynomial) for k in range(terms)
-    ]
+    return [edge * Legendre.basis(k).convert(kind=Polynomial) for k in range(terms)]
 
 
 def _integrals(basis: list[Polynomial], length: float) -> dict[str, Float64]:
@@ -43,8 +41,12 @@ def _integrals(basis: list[Polynomial], length: float) -> dict[str, Float64]:
 
 
 def _matrices(
-    a: float, b: float, nu: float, x_edges: tuple[bool, bool],
-    y_edges: tuple[bool, bool], terms: int,
+    a: float,
+    b: float,
+    nu: float,
+    x_edges: tuple[bool, bool],
+    y_edges: tuple[bool, bool],
+    terms: int,
 ) -> tuple[Float64, Float64]:
     """Bending energy over D and mass over ρ t of the products of both bases."""
     x = _integrals(_basis(terms, x_edges), a)
@@ -59,8 +61,14 @@ def _matrices(
 
 
 def ritz_frequencies(
-    rigidity: float, mass: float, side: float, nu: float, count: int, *,
-    clamped: bool, terms: int = 14,
+    rigidity: float,
+    mass: float,
+    side: float,
+    nu: float,
+    count: int,
+    *,
+    clamped: bool,
+    terms: int = 14,
 ) -> Float64:
     """Elastic frequencies (Hz) of a square plate, free or clamped at one edge.
 

@@ -1,4 +1,4 @@
-"""Decks run as a user runs them: text or file in, the datasets of the result file out."""
+"""Decks run as a user runs them: text or file in, datasets of the result file out."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path

@@ -1,0 +1,92 @@
+"""All cases, in the order of the table."""
+
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks.verification import (
+    commercial,
+    drop_tests,
+    macneal_harder,
+    nafems_beams,
+    nafems_plates,
+    rigid_motion,
+)
+from benchmarks.verification.row import Row
+
+REFERENCES = Path(__file__).resolve().parents[3] / "shared" / "references"
+
+
+@dataclass(frozen=True)
+class Case:
+    """A function that returns rows.
+
+    Attributes:
+        group: heading of its table.
+        compute: the function.
+    """
+
+    group: str
+    compute: Callable[..., list[Row]]
+
+    @property
+    def name(self) -> str:
+        """Name of the function."""
+        return self.compute.__name__
+
+    @property
+    def needs_references(self) -> bool:
+        """Whether the reference decks are needed."""
+        return bool(inspect.signature(self.compute).parameters.keys() & {"references"})
+
+    def rows(self, references: Path = REFERENCES) -> list[Row] | None:
+        """The rows; None where the reference decks are needed and absent."""
+        if not self.needs_references:
+            return self.compute()
+        return self.compute(references) if references.is_dir() else None
+
+
+_GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
+    "Decks and figures of other solvers": (
+        commercial.trusses_and_beams,
+        commercial.solid_shell_bar_statics,
+        commercial.solid_shell_bar_modes,
+        commercial.solid_shell_bar_transient,
+        commercial.line_elements_transient,
+        commercial.cantilever_bar,
+        commercial.cantilever_plate,
+        commercial.reductions,
+        commercial.rbe3_matrices,
+        commercial.truss_frame,
+    ),
+    "Patch tests and rigid motions": (
+        macneal_harder.patches,
+        rigid_motion.rigid_motions,
+    ),
+    "NAFEMS and closed forms": (
+        nafems_beams.fv2,
+        nafems_beams.fv4,
+        nafems_beams.fv5,
+        nafems_beams.deep_beam_transient,
+        nafems_beams.euler_cantilever,
+        nafems_beams.damped_oscillator,
+        nafems_plates.plates,
+        nafems_plates.free_plate_against_optistruct,
+        nafems_plates.tapered_membrane,
+        nafems_plates.solids,
+        nafems_plates.plate_transients,
+    ),
+    "MacNeal and Harder": (
+        macneal_harder.straight_beam,
+        macneal_harder.curved_beam,
+        macneal_harder.twisted_beam,
+        macneal_harder.scordelis_lo,
+        macneal_harder.hemisphere,
+        macneal_harder.rectangular_plates,
+        macneal_harder.thick_cylinder,
+    ),
+    "Landing gear": (drop_tests.main_gear,),
+}
+
+CASES = [Case(group, f) for group, functions in _GROUPS.items() for f in functions]
