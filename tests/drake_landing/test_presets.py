@@ -1,0 +1,183 @@
+"""Presets of CS-25: what they keep, and what their loads must look like."""
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
+
+from drake_landing.audit import audit, gear_loads
+from drake_landing.cases_io import parse_case
+from drake_landing.lift import aircraft_mass_centre
+from drake_landing.presets import PRESETS
+from drake_landing.scenario import Scenario
+from drake_landing.start import make_scenario_diagram, set_scenario_state
+from fem.errors import InputError
+from tests.drake_landing.landing_gears import aircraft_gears, changed
+from tests.systems.synthetic_body import aircraft_body
+
+G = 9.80665
+WING = (*range(21, 28), *range(31, 38))
+BRAKE = {"torque_table": [(0.05, 0.0), (0.1, 6.5e4)], "anti_skid": {}}
+
+
+def _gears():
+    nose, *mains = aircraft_gears()
+    return (nose, *(changed(gear, brake=BRAKE) for gear in mains))
+
+
+def _run(scenario, *, modes=8, duration=0.16, accuracy=1e-5):
+    landing = make_scenario_diagram(aircraft_body(modes), _gears(), scenario)
+    simulator = Simulator(landing.diagram)
+    config = SimulatorConfig(
+        integration_scheme="runge_kutta3", accuracy=accuracy, max_step_size=5e-3
+    )
+    ApplySimulatorConfig(config, simulator)
+    context = simulator.get_mutable_context()
+    set_scenario_state(landing, context, scenario)
+    simulator.Initialize()
+    simulator.AdvanceTo(duration)
+    return audit(landing, context, scenario), gear_loads(landing, context)
+
+
+@pytest.fixture(scope="module", params=PRESETS)
+def preset_run(request):
+    scenario = Scenario.model_validate({"preset": request.param})
+    duration = 0.4 if scenario.start == "rolling" else 0.16
+    return request.param, *_run(scenario, duration=duration)
+
+
+def test_energy_and_momentum_are_kept(preset_run):
+    _, found, _ = preset_run
+    assert found.energy < 1e-4
+    assert np.abs(found.momentum).max() < 1e-4
+
+
+def test_symmetric_conditions_stay_symmetric(preset_run):
+    name, found, _ = preset_run
+    if PRESETS[name].symmetric:
+        assert found.symmetry < 1e-8
+    else:
+        assert found.symmetry > 0.1
+
+
+def test_loads_are_those_of_the_condition(preset_run):
+    name, _, loads = preset_run
+    vertical, drag, side = loads["vertical"], loads["drag_ratio"], loads["side_ratio"]
+    assert drag.max() < 0.8 + 1e-6  # friction that 25.473(e) allows
+    if PRESETS[name].values.get("start") != "rolling":
+        assert loads["stroke"]["main_right"] > 0.25
+        assert drag["main_right"] > 0.6  # spin-up
+    if name in ("tail_down", "one_gear"):
+        assert vertical["nose"] == 0.0
+    if name == "one_gear":
+        assert vertical["main_right"] > 5 * vertical["main_left"]
+    if name == "drift":
+        # Nose to starboard of the track: the runway pushes to starboard, in line with
+        # the slip to the side beside that of spin-up.
+        assert side["main_left"] > 0.5
+        assert drag["main_left"] > 0.4
+    if name == "taxi_bump":
+        assert loads["drag_ratio"].abs().max() < 0.05
+        assert vertical["nose"] > 1.2 * 67.8e3
+    if name == "braked_roll":
+        assert_allclose(drag["main_left"], 0.8, atol=0.02)
+        assert drag["nose"] < 0.05
+
+
+def test_braked_nose_load_is_about_that_of_the_dynamic_formula():
+    """25.493(e): V_N = W/(A + B) [B + f μ A E/(A + B + μ E)], f = 2 undamped."""
+    scenario = Scenario.model_validate({"preset": "braked_roll"})
+    _, loads = _run(scenario, modes=0, duration=0.7, accuracy=1e-4)
+    mass, centre = aircraft_mass_centre(aircraft_body(0), _gears())
+    A, B = centre[0] - 5.07, 17.71 - centre[0]
+    # Struts about static: the ground is some 0.55 m nearer than extended.
+    E = centre[2] + 4.30 - 0.55
+    mu, friction = 0.8, 2.0
+    dynamic = friction * mu * A * E / (A + B + mu * E)
+    expected = mass * G / (A + B) * (B + dynamic)
+    # f = 2 is the overshoot of a linear spring; gas stiffens toward the full stroke.
+    found = loads["vertical"]["nose"]
+    assert expected < found < 1.25 * expected
+
+
+def test_lift_and_gravity_in_a_scenario():
+    lift = {"nodes": WING, "decay_start": 0.02, "decay_duration": 0.1}
+    scenario = Scenario.model_validate({"preset": "two_point", "lift": lift})
+    found, loads = _run(scenario, modes=3)
+    assert found.energy < 1e-4
+    assert np.abs(found.momentum).max() < 1e-4
+    plain = Scenario.model_validate({"preset": "two_point"})
+    _, without = _run(plain, modes=3, accuracy=1e-4)
+    assert loads["stroke"]["main_left"] > without["stroke"]["main_left"] + 0.005
+
+
+def test_values_beside_a_preset_override_it():
+    scenario = Scenario.model_validate({"preset": "tail_down", "pitch": 8.0})
+    assert scenario.pitch == 8.0
+    assert scenario.sink_rate == 3.048
+    assert scenario.forward_speed == 58.0
+    assert scenario.preset_data is PRESETS["tail_down"]
+    again = Scenario.model_validate(scenario.model_dump())
+    assert again == scenario
+
+
+def test_every_preset_is_valid_and_says_what_it_is():
+    for name, preset in PRESETS.items():
+        scenario = Scenario.model_validate({"preset": name})
+        for field, value in preset.values.items():
+            if not isinstance(value, dict):
+                assert getattr(scenario, field) == value
+        assert preset.paragraph.startswith("25.")
+        assert preset.mass
+        assert preset.remarks
+
+
+def test_bump_lies_ahead_of_the_foremost_tyre():
+    scenario = Scenario.model_validate({"preset": "taxi_bump"})
+    landing = make_scenario_diagram(aircraft_body(0), _gears(), scenario)
+    nose = 5.07 - landing.body.p_BG[0]
+    assert landing.runway.height(nose - 4.9, 0.0) == 0.0
+    assert_allclose(landing.runway.height(nose - 10.0, 0.0), 0.05)
+
+
+def _case(scenario: str) -> str:
+    return f"name: a\nairframe:\n  model: con\nscenario:\n{scenario}"
+
+
+@pytest.mark.parametrize(
+    ("scenario", "message"),
+    [
+        ("  preset: tail_dwn", "did you mean 'tail_down'"),
+        ("  preset: taxi_bump\n  pitch: 3", "pitch: an aircraft that rolls"),
+        ("  preset: taxi_bump\n  lift: weight", "gravity must act"),
+        ("  sink_rate: 2\n  lift: {nods: [1]}", "did you mean 'nodes'"),
+        ("  sink_rate: 2\n  lift: {nodes: [1, 2], shares: [1]}", "1 for 2 nodes"),
+        ("  sink_rate: 2\n  braking: -1", "scenario.braking: found -1"),
+        (
+            "  sink_rate: 2\n  runway: {profile: {kind: measured, file: no.csv}}",
+            "no such file: no.csv",
+        ),
+        ("  sink_rate: 2\n  runway: {profile: {kind: bumb}}", "bump, waves, step"),
+        ("  sink_rate: 2\n  runway: {surface: oily}", "'dry', 'wet' or 'icy'"),
+    ],
+)
+def test_bad_scenarios_have_one_message(scenario, message):
+    with pytest.raises(InputError) as caught:
+        parse_case(_case(scenario))
+    assert message in str(caught.value)
+    assert len(str(caught.value).splitlines()) == 1
+
+
+def test_braking_without_brakes_is_refused():
+    scenario = Scenario.model_validate({"preset": "braked_roll"})
+    with pytest.raises(ValueError, match="no gear has a brake"):
+        make_scenario_diagram(aircraft_body(0), aircraft_gears(), scenario)
+
+
+def test_bump_narrower_than_a_wheel_is_refused():
+    profile = {"kind": "bump", "height": 0.2, "length": 0.5}
+    scenario = Scenario.model_validate(
+        {"preset": "taxi_bump", "runway": {"profile": profile}}
+    )
+    with pytest.raises(ValueError, match="longer"):
+        make_scenario_diagram(aircraft_body(0), _gears(), scenario)
