@@ -13,9 +13,11 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
+from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.case import Airframe, Selection
 from fem.errors import InputError
 from fem.linear_solver import SingularMatrixError
+from fem.modal_transient import residual_vectors
 from fem.modes import Modes, ModesError, normal_modes
 from fem.reduction import Reduction, reduce_craig_bampton
 from fem.structure import Structure
@@ -47,60 +49,143 @@ class Basis:
     freedoms: int
     notices: tuple[str, ...] = ()
 
+    def chosen(self, modes: Rows, notices: Sequence[str] = ()) -> "Basis":
+        """Some of the modes, ascending, with further notices."""
+        modes = np.sort(modes)
+        return Basis(
+            frequency_hz=self.frequency_hz[modes],
+            shape=np.ascontiguousarray(self.shape[:, modes]),
+            rigid=self.rigid,
+            freedoms=self.freedoms,
+            notices=(*self.notices, *notices),
+        )
+
+    def rigid_modes(self, mass: sp.csr_matrix) -> Float64:
+        """(f, 6) mass-normalised rigid-body modes."""
+        gram = self.rigid.T @ (mass @ self.rigid)
+        return self.rigid @ np.linalg.inv(np.linalg.cholesky(gram)).T
+
 
 def elastic_basis(
     structure: Structure,
     airframe: Airframe,
     interface: Sequence[int],
     progress: Progress | None = None,
+    *,
+    cache: Cache | None = None,
 ) -> Basis:
-    """Modes as the case asks for them.
+    """Modes as the case asks for them; all candidates where relevance selects.
 
     Args:
         structure: free-flying.
         airframe: basis and selection.
         interface: grids that a reduction keeps.
         progress: called with (converged, wanted) modes.
+        cache: where modes of the same matrices may be found.
 
     Raises:
         InputError: the model is supported, has mechanisms, or has no such modes.
     """
-    if airframe.basis == "full-modes":
-        modes = _solve(structure, airframe.select, progress)
-        shape, freedoms, notices = modes.shape, structure.size, ()
+    select = airframe.select
+    if select.by_relevance:
+        select = Selection(kind="below", value=airframe.candidates)
+    rows, notices = None, ()
+    if airframe.basis != "full-modes":
+        rows, notices = interface_rows(structure, interface)
+    key = content_key(
+        *(structure.stiffness, structure.mass, airframe.basis, str(select), rows),
+        str(airframe.fixed_interface_modes) if rows is not None else None,
+    )
+
+    def solve() -> Arrays:
+        return _elastic(structure, airframe, select, rows, progress)
+
+    found = (cache or Cache(None)).arrays("modes", key, solve)
+    return Basis(
+        frequency_hz=found["frequency_hz"],
+        shape=found["shape"],
+        rigid=structure.rigid_body,
+        freedoms=int(found["freedoms"]),
+        notices=(
+            *notices,
+            *_missed(select, airframe.basis, len(found["frequency_hz"])),
+        ),
+    )
+
+
+def _elastic(
+    structure: Structure,
+    airframe: Airframe,
+    select: Selection,
+    rows: Rows | None,
+    progress: Progress | None,
+) -> Arrays:
+    """Frequencies and shapes (f, n) of elastic modes, and the freedoms they are of."""
+    if rows is None:
+        modes = _solve(structure, select, progress)
+        shape, freedoms = modes.shape, structure.size
     else:
-        kept, notices = interface_rows(structure, interface)
-        reduction = _reduce(structure, airframe, kept)
+        reduction = _reduce(structure, airframe, rows)
+        rigid = np.zeros((reduction.size, _RIGID))
+        rigid[: len(rows)] = structure.rigid_body[rows]
         modes = normal_modes(
             sp.csr_matrix(reduction.stiffness),
             sp.csr_matrix(reduction.mass),
-            **_wanted(airframe.select, reduction.size),
-            rigid_body=np.vstack(
-                [
-                    structure.rigid_body[kept],
-                    np.zeros((reduction.size - len(kept), _RIGID)),
-                ]
-            ),
+            **_wanted(select, reduction.size),
+            rigid_body=rigid,
         )
         shape, freedoms = reduction.expand(modes.shape), reduction.size
     _check_rigid(structure, modes, shape)
-    elastic = slice(_RIGID, None)
-    found = modes.count - _RIGID
-    select = airframe.select
+    return {
+        "frequency_hz": modes.frequency_hz[_RIGID:],
+        "shape": np.ascontiguousarray(shape[:, _RIGID:]),
+        "freedoms": np.array(freedoms),
+    }
+
+
+def _missed(select: Selection, basis: str, found: int) -> tuple[str, ...]:
+    """What the user asked for and did not get."""
     if select.kind == "count" and found < select.value:
-        notices = (
-            *notices,
+        return (
             f"airframe.select asks for {select.value:g} elastic modes; the "
-            f"{airframe.basis} basis has {found}",
+            f"{basis} basis has {found}",
         )
     if found == 0 and select.kind == "below" and select.value > 0:
-        notices = (*notices, f"no elastic mode below {select.value:g} Hz: rigid")
+        return (f"no elastic mode below {select.value:g} Hz: rigid",)
+    return ()
+
+
+def with_residual_vectors(
+    structure: Structure, basis: Basis, nodes: Sequence[int]
+) -> Basis:
+    """The basis completed by attachment modes.
+
+    Args:
+        structure: the full model.
+        basis: its modes.
+        nodes: grids whose unit forces and moments are to be answered statically right.
+    """
+    modes = Modes(
+        frequency_hz=np.concatenate([np.zeros(_RIGID), basis.frequency_hz]),
+        shape=np.hstack([basis.rigid_modes(structure.mass), basis.shape]),
+        rigid=_RIGID,
+        sturm=(),
+    )
+    patterns = structure.operator(sorted(set(nodes)), frame="basic").T
+    more = residual_vectors(structure.stiffness, structure.mass, modes, patterns)
+    added = more.frequency_hz[modes.count :]
+    if not len(added):
+        return basis
+    notice = (
+        f"{len(added)} residual vectors answer at {added.min():.0f} to "
+        f"{added.max():.0f} Hz"
+    )
     return Basis(
-        frequency_hz=modes.frequency_hz[elastic],
-        shape=np.ascontiguousarray(shape[:, elastic]),
-        rigid=structure.rigid_body,
-        freedoms=freedoms,
-        notices=notices,
+        frequency_hz=more.frequency_hz[_RIGID:],
+        shape=np.ascontiguousarray(more.shape[:, _RIGID:]),
+        rigid=basis.rigid,
+        freedoms=basis.freedoms,
+        notices=(*basis.notices, notice),
     )
 
 

@@ -28,7 +28,10 @@ from drake_landing.section import Section, number
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 Model = Literal["con", "pre", "full"]
 Basis = Literal["full-modes", "craig-bampton", "guyan"]
-_SELECTION = r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz)\s*$"
+_SELECTION = (
+    r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz|relevance\s+(\d+)"
+    r"|relevance\s+error\s*<=\s*(\d+(?:\.\d*)?)\s*%)\s*$"
+)
 
 
 # The name of a known set, or a list; tags are in parentheses, see `cases_io`.
@@ -40,31 +43,40 @@ Gears = Annotated[
 
 
 class Selection(Section):
-    """Which elastic modes: all of the basis, the lowest, or those below a frequency."""
+    """Which elastic modes: all, the lowest, those below a frequency, or those that
+    matter most under the gears' pulses: so many of them, or as many as an error needs.
+    """
 
-    kind: Literal["all", "count", "below"]
-    value: float = 0.0  # number of modes, or Hz
+    kind: Literal["all", "count", "below", "relevance", "error"]
+    value: float = 0.0  # number of modes, Hz, or %
 
     def __str__(self) -> str:
-        if self.kind == "all":
-            return "all"
-        unit = " Hz" if self.kind == "below" else ""
-        return f"{self.kind} {self.value:g}{unit}"
+        value = f"{self.value:g}"
+        return {
+            "all": "all",
+            "below": f"below {value} Hz",
+            "error": f"relevance error <= {value} %",
+        }.get(self.kind, f"{self.kind} {value}")
+
+    @property
+    def by_relevance(self) -> bool:
+        """The modes are chosen among candidates, see `relevance`."""
+        return self.kind in ("relevance", "error")
 
 
 def parse_selection(text: Any) -> Any:
-    """`all`, `count N` or `below F Hz`."""
+    """`all`, `count N`, `below F Hz`, `relevance N` or `relevance error <= x %`."""
     if isinstance(text, Selection):
         return text
     match = re.match(_SELECTION, text) if isinstance(text, str) else None
     if match is None:
-        raise ValueError("expected 'count N', 'below F Hz' or 'all'")
-    everything, count, below = match.groups()
-    if everything:
-        return Selection(kind="all")
-    if count:
-        return Selection(kind="count", value=float(count))
-    return Selection(kind="below", value=float(below))
+        raise ValueError(
+            "expected 'count N', 'below F Hz', 'all', 'relevance N' or "
+            "'relevance error <= x %'"
+        )
+    kinds = ("all", "count", "below", "relevance", "error")
+    kind, value = next((k, v) for k, v in zip(kinds, match.groups()) if v)
+    return Selection(kind=kind, value=0.0 if kind == "all" else float(value))
 
 
 SelectionText = Annotated[
@@ -123,7 +135,22 @@ class Airframe(Section):
     )
     select: SelectionText = Field(
         default=Selection(kind="below", value=50.0),
-        description="elastic modes of the multibody model: count N, below F Hz, all",
+        description="elastic modes of the multibody model: count N, below F Hz, all; "
+        "relevance N, relevance error <= x %: those that the gears excite and the "
+        "monitoring points feel most",
+    )
+    candidates: float = number(
+        "modes below this frequency are candidates where relevance selects",
+        "Hz",
+        260.0,
+        gt=0,
+        le=5000,
+    )
+    residual_vectors: bool = Field(
+        default=False,
+        description="add the static responses to loads at the attachment nodes that "
+        "the selected modes lack (attachment modes); their high frequencies make the "
+        "multibody run slower",
     )
     monitoring: dict[str, int] = Field(
         default={},
@@ -141,6 +168,11 @@ class Airframe(Section):
     def _one_source(self) -> Self:
         if (self.model is None) == (self.deck is None):
             raise ValueError("give either `model` (con, pre, full) or `deck` (a file)")
+        if self.fixed_interface_modes.by_relevance:
+            raise ValueError(
+                f"fixed_interface_modes: found '{self.fixed_interface_modes}', "
+                "expected 'count N', 'below F Hz' or 'all'; relevance is for `select`"
+            )
         if self.deck and not self.monitoring:
             raise ValueError("a deck needs `monitoring` points: name and grid id")
         return self

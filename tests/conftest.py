@@ -1,8 +1,22 @@
 """Fixtures for all tests."""
 
+import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
+
+@pytest.fixture(scope="session", autouse=True)
+def no_cache_of_the_user() -> Iterator[None]:
+    """What an earlier run computed proves nothing."""
+    before = os.environ.get("DRAKE_LANDING_CACHE")
+    os.environ["DRAKE_LANDING_CACHE"] = "off"
+    yield
+    if before is None:
+        del os.environ["DRAKE_LANDING_CACHE"]
+    else:
+        os.environ["DRAKE_LANDING_CACHE"] = before
 
 
 @pytest.fixture(scope="session")

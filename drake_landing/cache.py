@@ -1,0 +1,175 @@
+"""A store of costly arrays, found again by the content that they were computed from.
+
+An entry is a folder `<kind>-<key>` with one `.npy` file per array and `entry.json`,
+which lists sizes and checksums and is written last. The key is a hash of everything
+that the arrays depend on: matrices, settings, and the version of this format. Changed
+input has another key; an entry that is damaged, incomplete or of another format is
+deleted and computed anew. Nothing else is ever trusted or kept open, so the folder may
+be deleted at any time.
+
+Location: the environment's DRAKE_LANDING_CACHE, else the user's cache folder (Linux:
+~/.cache/drake-landing). DRAKE_LANDING_CACHE=off keeps nothing. Entries that have not
+been used for longest are deleted where all take more than DRAKE_LANDING_CACHE_GB, by
+default 8.
+"""
+
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import platformdirs
+import scipy.sparse as sp
+
+Arrays = dict[str, npt.NDArray]
+
+FORMAT = 1  # of entries, and of what the program stores in them
+_MANIFEST = "entry.json"
+_CHUNK = 1 << 24
+
+
+class Cache:
+    """Entries in one folder.
+
+    Args:
+        folder: made when it is needed; None: nothing is kept.
+        limit_gb: size beyond which the longest unused entries go.
+    """
+
+    def __init__(self, folder: Path | None, limit_gb: float = 8.0) -> None:
+        self.folder = folder
+        self._limit = limit_gb * 1e9
+
+    @classmethod
+    def of_user(cls) -> "Cache":
+        """Where environment and platform say."""
+        place = os.environ.get("DRAKE_LANDING_CACHE", "")
+        text = os.environ.get("DRAKE_LANDING_CACHE_GB", "")
+        limit = float(text) if text.replace(".", "", 1).isdigit() else 8.0
+        if place.lower() == "off":
+            return cls(None)
+        folder = Path(place or platformdirs.user_cache_dir("drake-landing"))
+        return cls(folder, limit)
+
+    def arrays(self, kind: str, key: str, build: Callable[[], Arrays]) -> Arrays:
+        """The arrays of an entry; built, and kept, where there is no sound one.
+
+        Args:
+            kind: what they are, for people who look into the folder.
+            key: of `content_key`.
+            build: computes them.
+        """
+        if self.folder is None:
+            return build()
+        place = self.folder / f"{kind}-{key}"
+        found = self._load(place)
+        if found is not None:
+            return found
+        arrays = build()
+        with suppress(OSError):  # a full or read-only disk costs time, not the result
+            self._store(place, arrays)
+            self._make_room(keep=place)
+        return arrays
+
+    def _load(self, place: Path) -> Arrays | None:
+        if not place.is_dir():
+            return None
+        try:
+            manifest = json.loads((place / _MANIFEST).read_text(encoding="utf-8"))
+            if manifest["format"] != FORMAT:
+                raise ValueError("another format")
+            arrays = {}
+            for name, checksum in manifest["arrays"].items():
+                if _checksum(place / f"{name}.npy") != checksum:
+                    raise ValueError("damaged")
+                arrays[name] = np.load(place / f"{name}.npy", allow_pickle=False)
+            os.utime(place)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+            shutil.rmtree(place, ignore_errors=True)
+            return None
+        return arrays
+
+    def _store(self, place: Path, arrays: Mapping[str, npt.NDArray]) -> None:
+        """Written aside, then renamed: a reader never meets half an entry."""
+        place.parent.mkdir(parents=True, exist_ok=True)
+        aside = Path(tempfile.mkdtemp(prefix=".part-", dir=place.parent))
+        try:
+            checksums = {}
+            for name, values in arrays.items():
+                file = aside / f"{name}.npy"
+                np.save(file, values, allow_pickle=False)
+                checksums[name] = _checksum(file)
+            text = json.dumps({"format": FORMAT, "arrays": checksums}, indent=1)
+            (aside / _MANIFEST).write_text(text, encoding="utf-8")
+            shutil.rmtree(place, ignore_errors=True)
+            aside.rename(place)
+        finally:
+            shutil.rmtree(aside, ignore_errors=True)
+
+    def _make_room(self, keep: Path) -> None:
+        assert self.folder is not None
+        entries = [
+            (p.stat().st_mtime, sum(f.stat().st_size for f in p.iterdir()), p)
+            for p in self.folder.iterdir()
+            if (p / _MANIFEST).is_file()
+        ]
+        total = sum(size for _, size, _ in entries)
+        for _, size, place in sorted(entries):
+            if total <= self._limit:
+                return
+            if place != keep:
+                shutil.rmtree(place, ignore_errors=True)
+                total -= size
+
+
+def content_key(*parts: object) -> str:
+    """32 hexadecimal digits of the content of parts.
+
+    Args:
+        parts: None, numbers, strings, arrays, sparse matrices, and tuples, lists and
+            dictionaries of these.
+    """
+    digest = hashlib.blake2b(digest_size=16)
+    _feed(digest, [FORMAT, *parts])
+    return digest.hexdigest()
+
+
+def _feed(digest: "hashlib._Hash", part: object) -> None:
+    """Everything with its type and size: different parts give different bytes."""
+    if part is None or isinstance(part, bool | int | float | str):
+        digest.update(f"{type(part).__name__}:{part!r};".encode())
+    elif isinstance(part, np.generic):
+        _feed(digest, part.item())
+    elif isinstance(part, np.ndarray):
+        digest.update(f"array:{part.dtype.str}{part.shape};".encode())
+        digest.update(np.ascontiguousarray(part).data.cast("B") if part.size else b"")
+    elif sp.issparse(part):
+        matrix = sp.csr_matrix(part)
+        matrix.sum_duplicates()
+        matrix.sort_indices()
+        _feed(digest, ["sparse", list(matrix.shape), matrix.data])
+        _feed(digest, [matrix.indices.astype(np.int64), matrix.indptr.astype(np.int64)])
+    elif isinstance(part, Mapping):
+        digest.update(f"map:{len(part)};".encode())
+        for key, value in part.items():
+            _feed(digest, [key, value])
+    elif isinstance(part, list | tuple):
+        digest.update(f"list:{len(part)};".encode())
+        for item in part:
+            _feed(digest, item)
+    else:
+        raise TypeError(f"{type(part).__name__} has no content key")
+
+
+def _checksum(file: Path) -> str:
+    digest = hashlib.blake2b(digest_size=16)
+    with file.open("rb") as stream:
+        while block := stream.read(_CHUNK):
+            digest.update(block)
+    return digest.hexdigest()
