@@ -86,6 +86,20 @@ def model(
     print(write_model_deck(level, out))
 
 
+@app.command()
+def show(
+    deck: Annotated[Path, typer.Argument(metavar="MODEL.bdf", help="Nastran deck")],
+    out: Annotated[
+        Path | None, typer.Option("--out", help="folder; default out/<deck name>")
+    ] = None,
+    modes: Annotated[int, typer.Option("--modes", help="elastic modes to show")] = 10,
+) -> None:
+    """Pictures of a deck: mesh by component, modes, a viewer that needs no server."""
+    from drake_landing.show import show_model
+
+    show_model(deck, out or Path("out", deck.stem), modes)
+
+
 def _run(case: "Case", out: Path | None) -> None:
     from drake_landing.process import run_case
     from drake_landing.progress import reporter
