@@ -261,15 +261,36 @@ class ModelBuilder:
         return self._properties[name]
 
     def bar_property(
-        self, name: str, material: int, area: float, i1: float, i2: float, j: float
+        self,
+        name: str,
+        material: int,
+        area: float,
+        i1: float,
+        i2: float,
+        j: float,
+        half: tuple[float, float] | None = None,
     ) -> int:
-        """PBAR of that name (m², m⁴), written when first asked for; returns its id."""
+        """PBAR of that name, written when first asked for; returns its id.
+
+        Args:
+            name: comment, and key.
+            material: id.
+            area: m².
+            i1, i2: second moments in planes 1 and 2, m⁴.
+            j: torsion constant, m⁴.
+            half: half sizes along the orientation vector and across, m, at whose
+                corners stresses are recovered.
+        """
         if name not in self._properties:
             pid = self.next_id("bars", "property")
             section = self.section("Properties of bars")
             section.comment(f"property {pid}: {name}")
             values = [float(f"{x:.5g}") for x in (area, i1, i2, j)]
-            section.add("PBAR", pid, material, *values)
+            corners: list[Value] = []
+            if half:
+                c, d = half
+                corners = [None, None, c, d, c, -d, -c, d, -c, -d]
+            section.add("PBAR", pid, material, *values, *corners)
             self._properties[name] = pid
             self._per_length[pid] = density(material) * values[0]
         return self._properties[name]

@@ -149,8 +149,9 @@ class Halves:
         row = rows[rows.profile == name].iloc[0]
         material = facts("materials")[row.material]["id"]
         values = (row.area, row.i_high, row.i_low, row.j)
+        half = (float(row.half_high), float(row.half_low))
         return self.model.bar_property(
-            f"fuselage {name}", material, *map(float, values)
+            f"fuselage {name}", material, *map(float, values), half
         )
 
     def sheet(self, name: str, thickness: float, bending: float = 1.0) -> int:
