@@ -1,7 +1,7 @@
 """Plates in theory: independent figures where published ones are rounded or coarse.
 
 `ritz_frequencies` and `ritz_deflection` are Rayleigh-Ritz solutions of Kirchhoff's
-plate in products of Legendre polynomials, which satisfy the clamped edges by factors; with
+plate in products of Legendre polynomials, with factors for the clamped edges; with
 14 by 14 terms they have five digits. `StepSeries` is Navier's series of a simply
 supported Mindlin plate (no rotary inertia) under a sudden pressure.
 """
