@@ -23,7 +23,7 @@ def explain(case: Case) -> str:
     mass = structure.weight.total
     x, y, z = structure.weight.center.round(3) + 0.0  # no minus zero
     gears = sum(gear.mass for gear in aircraft.gears)
-    s, run = case.scenario, case.simulation
+    s, run = aircraft.scenario, case.simulation
     energy = 0.5 * (mass + gears) * s.sink_rate**2
     steps = case.transient_duration / case.transient.step
     lines = [
@@ -33,8 +33,8 @@ def explain(case: Case) -> str:
         f"{len(aircraft.gears)} gears {gears:,.1f} kg, together {mass + gears:,.1f} kg",
         f"multibody: elastic modes '{case.airframe.select}' of the "
         f"{case.airframe.basis} basis, {run.duration:g} s with {run.integrator}",
-        f"touchdown: sink rate {s.sink_rate:g} m/s, energy {energy / 1e3:.1f} kJ, "
-        f"forward speed {s.forward_speed:g} m/s",
+        f"scenario: {s.story}; {s.lift_story}; energy of the sink rate "
+        f"{energy / 1e3:.1f} kJ",
         f"direct transient: {steps:.0f} steps of {case.transient.step:g} s",
         "monitoring points: "
         + ", ".join(f"{name} ({grid})" for name, grid in aircraft.monitoring.items()),

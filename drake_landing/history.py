@@ -47,6 +47,8 @@ class LandingHistory:
         amplitudes: (t, n) modal amplitudes of the modal body.
         energy: J; columns kinetic and strain of the airframe, gears, struts, tyres,
             dissipated, and `balance`: their sum less its value at the start.
+        lift_change: grid -> (t, 3) force (N, B) that the lift there has gained since
+            the start; none where the lift is constant.
         figures: of the run: steps, evaluations, processor seconds, sink energy (J).
     """
 
@@ -60,6 +62,7 @@ class LandingHistory:
     bodies: dict[str, Float64]
     amplitudes: Float64
     energy: pd.DataFrame
+    lift_change: dict[int, Float64] = field(default_factory=dict)
     figures: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -68,12 +71,18 @@ class LandingHistory:
         return self.motion.index.to_numpy()
 
     def attachment_loads(self) -> AttachmentLoads:
-        """Of all gears, nodes in ascending id; loads on one node are added."""
-        nodes = np.unique(list(self.attachment_node.values()))
+        """Of all gears, nodes in ascending id; loads on one node are added.
+
+        They are increments over the loads at the start, which hold the aircraft in its
+        flight or at rest; what the lift has lost since is among them.
+        """
+        nodes = np.unique([*self.attachment_node.values(), *self.lift_change])
         load = np.zeros((len(self.time), len(nodes), 6))
-        for gear, table in self.attachment.items():
-            at = np.searchsorted(nodes, self.attachment_node[gear])
-            load[:, at] += table.to_numpy()
+        for attachment, table in self.attachment.items():
+            at = np.searchsorted(nodes, self.attachment_node[attachment])
+            load[:, at] += table.to_numpy() - table.to_numpy()[0]
+        for node, force in self.lift_change.items():
+            load[:, np.searchsorted(nodes, node), :3] += force
         return AttachmentLoads(time=self.time, node_id=nodes, load=load)
 
     def leg(self, gear: str, column: str) -> pd.Series:

@@ -27,6 +27,7 @@ from drake_landing.start import (
 )
 from fem.errors import InputError
 from systems.modal_body import ModalBody
+from systems.rotations import rotation_from_quaternion
 
 Float64 = npt.NDArray[np.float64]
 
@@ -203,6 +204,7 @@ def _history(
         bodies=_body_poses(landing, signal("plant.state")),
         amplitudes=signal("airframe.modal_amplitudes"),
         energy=_energy(landing, signal, index),
+        lift_change=_lift_change(landing, signal, R_AB),
         figures=figures,
     )
 
@@ -237,6 +239,21 @@ def _body_poses(landing: LandingDiagram, states: Float64) -> dict[str, Float64]:
     return found
 
 
+def _lift_change(landing: LandingDiagram, signal, R_AB: Float64) -> dict[int, Float64]:
+    """Grid -> (t, 3) force that the lift there has gained since the start, B."""
+    if landing.lift is None:
+        return {}
+    force = signal("lift.force")
+    change = force - force[0]
+    if not change.any():
+        return {}
+    up_A = np.array(
+        [rotation_from_quaternion(q)[2] for q in signal("airframe.pose")[:, :4]]
+    )
+    in_B = change * up_A @ R_AB
+    return {n: w * in_B for n, w in zip(landing.lift.nodes, landing.lift.shares)}
+
+
 def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:
     """Where the energy is; the gears' kinetic energy is what the others leave."""
 
@@ -248,7 +265,13 @@ def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:
         "airframe": stored(["airframe"]),
         "shock absorbers": stored([f"shock_absorber_{g.name}" for g in landing.gears]),
         "tyres": stored([f"tire_{wheel}" for wheel in landing.tires]),
-        "dissipated": signal("energy_budget.dissipated")[:, 0],
     }
+    if landing.pitch_dampers:
+        parts["pitch dampers"] = stored(
+            [f"pitch_damper_{gear}" for gear in landing.pitch_dampers]
+        )
+    if landing.lift is not None:
+        parts["taken by the lift"] = -signal("energy_budget.supplied")[:, 0]
+    parts["dissipated"] = signal("energy_budget.dissipated")[:, 0]
     parts["gears, moving"] = total - np.sum(list(parts.values()), axis=0)
     return pd.DataFrame({**parts, "balance": total - total[0]}, index=index)

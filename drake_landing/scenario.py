@@ -213,3 +213,42 @@ class Scenario(Section):
     def gravity(self) -> bool:
         """Gravity acts."""
         return self.lift != "weight"
+
+    @property
+    def story(self) -> str:
+        """What the aircraft does, e.g. `touched down at 3.05 m/s sink rate ...`."""
+        angles = {"pitch": self.pitch, "roll": self.roll, "yaw": self.yaw}
+        turned = [f"{name} {value:g}°" for name, value in angles.items() if value]
+        if self.start == "rolling":
+            parts = [f"rolled at {self.forward_speed:g} m/s"]
+        else:
+            parts = [
+                f"touched down at {self.sink_rate:g} m/s sink rate and "
+                f"{self.forward_speed:g} m/s",
+                *(turned or ["level"]),
+            ]
+        profile = self.runway.profile
+        parts += [f"{self.runway.surface} runway"] * (self.runway.surface != "dry")
+        parts += [f"profile: {profile.kind}"] if profile else []
+        parts += ["brakes applied"] * (self.braking > 0)
+        parts += ["preset " + self.preset] if self.preset else []
+        return ", ".join(parts)
+
+    @property
+    def lift_story(self) -> str:
+        """How lift and weight act."""
+        if self.lift == "weight":
+            return "lift balances the weight, neither acts"
+        if self.lift == "none" or not isinstance(self.lift, Lift):
+            return "gravity without lift"
+        lift = self.lift
+        text = (
+            f"gravity, lift {lift.factor:g} of the weight over {len(lift.nodes)} grids"
+        )
+        if lift.decay_duration is None:
+            return text
+        end = lift.decay_start + lift.decay_duration
+        return (
+            f"{text}, falling to {lift.remaining:g} from {lift.decay_start:g} to "
+            f"{end:g} s"
+        )

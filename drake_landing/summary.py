@@ -5,20 +5,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from drake_landing.case import Case
-
 if TYPE_CHECKING:
     from drake_landing.process import ProcessResult
 
 
 def story(result: "ProcessResult") -> str:
     """What was done."""
-    case, body = result.case, result.airframe.body
-    s = case.scenario
+    body, scenario = result.airframe.body, result.aircraft.scenario
     mass = body.mass + sum(gear.mass for gear in result.aircraft.gears)
     return (
-        f"{result.aircraft.name}, {mass / 1e3:.1f} t, touched down at "
-        f"{s.sink_rate:g} m/s sink rate and {s.forward_speed:g} m/s{_attitude(case)}: "
+        f"{result.aircraft.name}, {mass / 1e3:.1f} t, "
+        f"{result.aircraft.scenario.story}: "
         f"{len(result.aircraft.gears)} gears on a multibody airframe with "
         f"{mode_count(result)}, then the attachment loads on the "
         f"full model of {result.airframe.grids} grids over "
@@ -46,13 +43,6 @@ def key_figures(result: "ProcessResult") -> list[tuple[str, str]]:
         ("highest acceleration", _acceleration(result.comparison)),
         ("multibody against direct transient", _difference(result.comparison)),
     ]
-
-
-def _attitude(case: Case) -> str:
-    s = case.scenario
-    angles = {"pitch": s.pitch, "roll": s.roll, "yaw": s.yaw}
-    turned = [f"{name} {value:g}°" for name, value in angles.items() if value]
-    return ", " + ", ".join(turned) if turned else ", level"
 
 
 def _largest(table: pd.DataFrame) -> pd.Series:

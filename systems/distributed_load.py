@@ -125,6 +125,7 @@ class DistributedLoad(LeafSystem):
                 "one each"
             )
         rows = body.rows(nodes)
+        self.nodes, self.shares = tuple(nodes), tuple(w.tolist())
         self._force = force
         self._direction = np.asarray(direction, dtype=float)
         self._arm = w @ (body.p_BN[rows] - body.p_BG)

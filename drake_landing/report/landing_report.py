@@ -185,7 +185,7 @@ def _tables(result: "ProcessResult") -> Section:
 
 def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
     case, body, run = result.case, result.airframe.body, result.history.figures
-    s, sim, tr = case.scenario, case.simulation, case.transient
+    sim, tr = case.simulation, case.transient
     x, y, z = body.p_BG.round(3) + 0.0  # no minus zero
     last = f" up to {body.frequency[-1]:.2f} Hz" if body.n else ""
     topology = result.aircraft.topology
@@ -202,9 +202,8 @@ def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
         ("basis", case.airframe.basis),
         ("elastic modes", f"{body.n} ({case.airframe.select}){last}"),
         (
-            "touchdown",
-            f"sink rate {s.sink_rate:g} m/s, forward {s.forward_speed:g} m/s, pitch "
-            f"{s.pitch:g}°, roll {s.roll:g}°, yaw {s.yaw:g}°; lift = {s.lift}",
+            "scenario",
+            f"{result.aircraft.scenario.story}; {result.aircraft.scenario.lift_story}",
         ),
         (
             "multibody run",

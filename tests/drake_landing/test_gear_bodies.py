@@ -119,6 +119,12 @@ def test_a_gear_may_hang_on_a_joint_of_the_callers_own():
         (("wheel_offsets",), (), "at least 1 item"),
         (("shock_absorber", "gas_length"), 0.4, "must exceed the stroke"),
         (("tyre", "load_table"), [(0.0, 0.0), (0.1, 2e5)], "either stiffness or"),
+        (("shock_absorber", "gas_exponent"), -1.0, "greater than or equal to 1"),
+        (
+            ("shock_absorber", "compression_metering"),
+            [(0.0, 1.0), (0.2, 1.5), (0.1, 2.0)],
+            "0.1 follows 0.2, expected strictly ascending",
+        ),
         (("rake_deg",), 60.0, "less than 45"),
         (("name",), "Main Gear", "match pattern"),
         (("stiffnes",), 1.0, "Extra inputs"),
