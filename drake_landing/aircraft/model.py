@@ -320,6 +320,7 @@ class ModelBuilder:
         b: int,
         orientation: Float64,
         shift: Float64 | None = None,
+        pins: int | None = None,
     ) -> None:
         """CBAR, whose mass is counted in the part's structure.
 
@@ -330,12 +331,13 @@ class ModelBuilder:
             b: grid at the end.
             orientation: (3,) vector of plane 1.
             shift: (3,) offset of both ends from their grids, m.
+            pins: freedoms (bar axes) that both ends do not take along.
         """
         vector = [round(float(x), 4) + 0.0 for x in orientation]
         offset: list[float] = []
         if shift is not None and np.any(shift):
             offset = [round(float(x), 5) + 0.0 for x in shift]
-        tail = [None, None, None, *offset, *offset] if offset else []
+        tail = [None, pins, pins, *offset, *offset] if offset or pins else []
         self.element(part, "CBAR", pid, a, b, *vector, *tail)
         pa, pb = self.position[a], self.position[b]
         length = float(np.linalg.norm(pb - pa))

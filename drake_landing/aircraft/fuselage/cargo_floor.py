@@ -5,7 +5,6 @@ import numpy as np
 from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
-from drake_landing.aircraft.fuselage.passenger_floor import AFT
 from drake_landing.aircraft.geometry import Int64
 
 CARGO = "fuselage cargo floor"
@@ -22,7 +21,6 @@ def _compartment(hull: Hull, first: str, last: str) -> None:
     halves, line = hull.halves, hull.line("cargo")
     shares = np.array(facts("fuselage_shell")["cargo_floor"]["shares"])
     beam = halves.profile("cargo_crossbeam")
-    strut = halves.profile("floor_strut")
     grid = []
     for row in hull.rows.between(first, last):
         edge = hull.p(row, line)
@@ -31,7 +29,7 @@ def _compartment(hull: Hull, first: str, last: str) -> None:
         grid.append(twins)
         if hull.rows.frame[row] >= 0:
             halves.chain(CARGO, beam, [*twins, hull.at(row, line)], UP)
-            halves.bar(CARGO, strut, twins[1], hull.at(row, hull.line("keel")), AFT)
+            halves.strut(CARGO, twins[1], hull.at(row, hull.line("keel")))
     panel = facts("fuselage_shell")["cargo_floor"]["panel"]
     sheet = halves.sheet("fuselage floor panel", panel["thickness"], panel["bending"])
     halves.patch(CARGO, sheet, np.array(grid))

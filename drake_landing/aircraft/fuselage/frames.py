@@ -38,8 +38,8 @@ def _kind(name: str) -> tuple[str, float]:
     data = facts("fuselage_shell")["frames"]
     if name in data["main"]:
         return "main_frame", data["main_depth"]
-    if name in data["tail"]:
-        return "tail_frame", data["depth"]
+    if name in data["heavy"]:
+        return "heavy_frame", data["heavy_depth"]
     return "frame", data["depth"]
 
 

@@ -108,13 +108,20 @@ class Halves:
         b: Int64,
         orientation: Float64 | Sequence[float],
         shift: Float64 | None = None,
+        pins: int | None = None,
     ) -> None:
         """A bar and its mirror image, see `ModelBuilder.bar`."""
         vector = np.asarray(orientation, float)
-        self.model.bar(part, pid, int(a[0]), int(b[0]), vector, shift)
+        self.model.bar(part, pid, int(a[0]), int(b[0]), vector, shift, pins)
         if (a[0], b[0]) != (a[1], b[1]):
             other = None if shift is None else shift * MIRROR
-            self.model.bar(part, pid, int(a[1]), int(b[1]), vector * MIRROR, other)
+            left = (int(a[1]), int(b[1]))
+            self.model.bar(part, pid, *left, vector * MIRROR, other, pins)
+
+    def strut(self, part: str, a: Int64, b: Int64) -> None:
+        """A floor strut, hinged at both ends."""
+        aft = (1.0, 0.0, 0.0)
+        self.bar(part, self.profile("floor_strut"), a, b, aft, pins=56)
 
     def chain(
         self,

@@ -10,7 +10,7 @@ from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
 from drake_landing.aircraft.fuselage.wing_fit import Fit
-from drake_landing.aircraft.geometry import Int64
+from drake_landing.aircraft.geometry import Float64, Int64
 
 KEEL = "fuselage keel beam"
 
@@ -30,10 +30,11 @@ def add_keel_beam(hull: Hull, fit: Fit | None) -> dict[int, Int64]:
     first, last = (hull.rows.at(f) for f in facts("fuselage")["wing_frames"])
     line = hull.line("keel")
     share = np.linspace(0.0, 1.0, data["high"] + 1)[1:]
+    tops = _tops(hull)
     web, spine = [], []
     for row in rows:
         foot = hull.p(row, line)
-        face, z = None, data["top_z"]
+        face, z = None, float(np.interp(foot[0], *tops))
         if fit is not None and first <= row <= last:
             face = {first: "front", last: "rear"}.get(row, "lower")
             z = _under_wing(fit, face, foot[0])
@@ -61,3 +62,14 @@ def add_keel_beam(hull: Hull, fit: Fit | None) -> dict[int, Int64]:
 def _under_wing(fit: Fit, face: str, x: float) -> float:
     """Height of the wing box above the keel: lower cover, or a spar's lower edge."""
     return fit.height(face, x) if face == "lower" else fit.edges(face)[1]
+
+
+def _tops(hull: Hull) -> tuple[Float64, Float64]:
+    """x of four frames, z of the beam's top there: it tapers toward its ends."""
+    data, names = facts("fuselage_shell")["keel_beam"], hull.rows.names
+    first, last = (hull.rows.number(f) for f in data["frames"])
+    x = [
+        hull.rows.x[hull.rows.at(names[k])] for k in (first, first + 1, last - 1, last)
+    ]
+    end, top = data["end_z"], data["top_z"]
+    return np.array(x), np.array([end, top, top, end])

@@ -1,5 +1,7 @@
 """Longerons: along the edges of openings in belly and tail cone, and panel splices."""
 
+import numpy as np
+
 from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull, tailplane_lines
@@ -22,6 +24,8 @@ def add_opening_edges(hull: Hull) -> None:
 def add_splices(hull: Hull) -> None:
     """The doubled edges of the skin panels where these are joined lengthwise."""
     strap = hull.halves.profile("stringer")
-    for name, *frames in facts("fuselage_shell")["splices"]:
-        rows, line = hull.rows.between(*frames), hull.line(name)
+    for angle, *frames in facts("fuselage_shell")["splices"]:
+        rows = hull.rows.between(*frames)
+        middle = np.rad2deg(hull.lines.angle[rows[len(rows) // 2]])
+        line = int(np.argmin(np.abs(middle - angle)))
         hull.halves.chain(EDGES, strap, [hull.at(row, line) for row in rows], UP)

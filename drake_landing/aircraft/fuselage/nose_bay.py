@@ -9,10 +9,11 @@ import numpy as np
 from drake_landing.aircraft.beams import UP
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
-from drake_landing.aircraft.fuselage.passenger_floor import AFT, PassengerFloor
+from drake_landing.aircraft.fuselage.passenger_floor import PassengerFloor
 from drake_landing.aircraft.geometry import Int64
 
 BAY = "fuselage nose gear bay"
+_AFT = (1.0, 0.0, 0.0)
 
 
 def add_nose_bay(hull: Hull, floor: PassengerFloor) -> list[int]:
@@ -65,8 +66,8 @@ def _stiffen(hull: Hull, rows: list[int], wall: Int64, roof: Int64) -> None:
     beam = halves.profile("bay_beam")
     for k, row in enumerate(rows):
         if hull.rows.frame[row] >= 0:
-            halves.chain(BAY, beam, wall[k], AFT)
-            halves.chain(BAY, beam, roof[k], AFT)
+            halves.chain(BAY, beam, wall[k], _AFT)
+            halves.chain(BAY, beam, roof[k], _AFT)
     longeron = halves.profile("opening_longeron")
     for height in (0, -1):
         halves.chain(BAY, longeron, wall[:, height], UP)
@@ -82,6 +83,6 @@ def _brace(hull: Hull, floor: PassengerFloor, rows: list[int], corner: Int64) ->
         y, z = halves.position(corner[k])[1:]
         beam = floor.beam(row)[:-1]
         head = min(beam, key=lambda t: abs(halves.position(t)[1] - y))
-        halves.bar(BAY, pid, corner[k], head, AFT)
+        halves.bar(BAY, pid, corner[k], head, _AFT)
         line = hull.lines.nearest(row, 2, z, hull.line("floor"), hull.line("keel"))
-        halves.bar(BAY, pid, corner[k], hull.at(row, line), AFT)
+        halves.bar(BAY, pid, corner[k], hull.at(row, line), _AFT)

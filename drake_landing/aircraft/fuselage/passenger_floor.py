@@ -16,7 +16,6 @@ from drake_landing.aircraft.geometry import Int64
 
 FLOOR = "fuselage passenger floor"
 DECK = "fuselage pressure deck"
-AFT = (1.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,12 +119,11 @@ def _struts(hull: Hull, floor: PassengerFloor) -> None:
     """From the crossbeams to the frames below, but not over wing box and gear bay."""
     halves, data = hull.halves, facts("fuselage_shell")["passenger_floor"]
     without = hull.rows.frames(*data["heavy_frames"])
-    pid = halves.profile("floor_strut")
     foot = strut_line(hull)
     for row in hull.rows.frames(*data["strut_frames"]):
         if row in without:
             continue
-        halves.bar(FLOOR, pid, strut_head(floor, row), hull.at(row, foot), AFT)
+        halves.strut(FLOOR, strut_head(floor, row), hull.at(row, foot))
 
 
 def strut_line(hull: Hull) -> int:

@@ -7,7 +7,6 @@ the spars, the keel beam on the lower cover, the floor's struts stand on the upp
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.fuselage.hull import Hull
 from drake_landing.aircraft.fuselage.passenger_floor import (
-    AFT,
     FLOOR,
     PassengerFloor,
     strut_head,
@@ -21,20 +20,20 @@ JOINT = "fuselage wing joint"
 def add_wing_junction(hull: Hull, floor: PassengerFloor, fit: Fit) -> None:
     """Joins skin, main frames, walls and floor to the wing box."""
     front, rear = facts("fuselage")["wing_frames"]
-    for row in hull.rows.between(front, rear):
-        fit.to_face(JOINT, hull.at(row, hull.line("wing")), "upper")
     for frame, face in ((front, "front"), (rear, "rear")):
+        fit.to_face(JOINT, hull.at(hull.rows.at(frame), hull.line("wing")), face)
         add_spar_wall(hull, floor, frame, face, fit)
+    for row in hull.rows.between(front, rear)[1:-1]:
+        fit.to_face(JOINT, hull.at(row, hull.line("wing")), "upper")
     _struts(hull, floor, fit)
 
 
 def _struts(hull: Hull, floor: PassengerFloor, fit: Fit) -> None:
     halves = hull.halves
-    pid = halves.profile("floor_strut")
     for row in hull.rows.frames(*facts("fuselage")["wing_frames"])[1:-1]:
         head = strut_head(floor, row)
         p = halves.position(head).copy()
         p[2] = fit.height("upper", p[0])
         foot = halves.grids(FLOOR, p[None])[0]
         fit.to_face(FLOOR, foot, "upper")
-        halves.bar(FLOOR, pid, head, foot, AFT)
+        halves.strut(FLOOR, head, foot)
