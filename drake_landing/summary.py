@@ -15,7 +15,7 @@ def story(result: "ProcessResult") -> str:
     mass = body.mass + sum(gear.mass for gear in result.aircraft.gears)
     return (
         f"{result.aircraft.name}, {mass / 1e3:.1f} t, "
-        f"{result.aircraft.scenario.story}: "
+        f"{scenario.story}: "
         f"{len(result.aircraft.gears)} gears on a multibody airframe with "
         f"{mode_count(result)}, then the attachment loads on the "
         f"full model of {result.airframe.grids} grids over "
