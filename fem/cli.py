@@ -69,6 +69,14 @@ def run(
     envelope: Annotated[
         bool, typer.Option(help="Extremes over time of all element results.")
     ] = False,
+    bar_loads: Annotated[
+        bool,
+        typer.Option(
+            "--bar-loads",
+            help="Bars and beams in transients with PLOAD1's part between their ends "
+            "(Nastran leaves it out).",
+        ),
+    ] = False,
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads of the sparse solver.")
     ] = None,
@@ -82,7 +90,9 @@ def run(
         names = [name for name in ignore.replace(" ", "").split(",") if name]
         model = read_deck(deck, ignore=names)
         folder = out if out is not None else Path("out") / deck.stem
-        options = Options(threads=threads, envelope=envelope, console=console)
+        options = Options(
+            threads=threads, envelope=envelope, bar_loads=bar_loads, console=console
+        )
         run_deck(model, folder / f"{deck.stem}.h5", options)
     finally:
         console.close()

@@ -12,6 +12,7 @@ import scipy.sparse as sp
 
 from fem.observation import Chunk
 from fem.recovery import ElementTable
+from fem.table_response import Factors, TableResponse
 
 Float64 = npt.NDArray[np.float64]
 
@@ -24,6 +25,7 @@ class Envelope:
         expand: (g, n) g-set from the freedoms of the transient.
         name: group of the result file.
         case: load case.
+        factors: see `TableResponse`.
 
     Attributes:
         smallest, largest: (e, c) extremes in the columns of the table.
@@ -36,9 +38,10 @@ class Envelope:
         expand: sp.csr_matrix,
         name: str = "envelope",
         case: int = 0,
+        factors: Factors | None = None,
     ) -> None:
-        self.table, self._name, self._case = table, name, case
-        self._operator = sp.csr_matrix(table.operator @ expand)
+        self.table, self._name = table, name
+        self._response = TableResponse(table, expand, case, factors)
         shape = (len(table.id), len(table.columns))
         self.smallest, self.largest = np.full(shape, np.inf), np.full(shape, -np.inf)
         self.time_of_smallest, self.time_of_largest = np.zeros(shape), np.zeros(shape)
@@ -49,8 +52,7 @@ class Envelope:
 
     def observe(self, chunk: Chunk) -> None:
         """Take the extremes of a chunk; see `Observer`."""
-        linear = chunk.get("displacement", self._operator)[:, self._case]
-        values = self.table.evaluate(linear)
+        values = self._response.values(chunk)
         for extreme, time, at in (
             (self.smallest, self.time_of_smallest, values.argmin(axis=0)),
             (self.largest, self.time_of_largest, values.argmax(axis=0)),

@@ -108,11 +108,12 @@ class Laminate:
         ply = turned_flexibility(self.shear_flexibility, self.angle)
         return np.sum(product * ply, axis=0)
 
-    def recovery(self, flexibility: Float64) -> Float64:
-        """Ply stresses from resultants.
+    def recovery(self, flexibility: Float64, *, strain: bool = False) -> Float64:
+        """Ply stresses, or strains, from resultants.
 
         Args:
             flexibility: (6, 6) inverse of [A B; B D] in laminate axes.
+            strain: strains 11 22 12 xz yz (engineering shear) instead of stresses.
 
         Returns:
             (p, 5, 8) from N (3), M (3), Q (2) in laminate axes to the stresses 11 22 12
@@ -120,8 +121,12 @@ class Laminate:
             laminate axes at its top, as Nastran prints them.
         """
         matrix = np.zeros((len(self.thickness), 5, 8))
-        strain = flexibility[:3] + self.middle[:, None, None] * flexibility[3:]
-        matrix[:, :3, :6] = self.plane @ strain_rotation(self.angle) @ strain
+        of_plane = flexibility[:3] + self.middle[:, None, None] * flexibility[3:]
+        of_plane = strain_rotation(self.angle) @ of_plane
+        matrix[:, :3, :6] = of_plane if strain else self.plane @ of_plane
         at, _ = self.shear_profile()
         matrix[:, 3, 6], matrix[:, 4, 7] = at[1:, 0], at[1:, 1]
+        if strain:
+            turned = turned_flexibility(self.shear_flexibility, self.angle)
+            matrix[:, 3:, 6:] = turned @ matrix[:, 3:, 6:]
         return matrix

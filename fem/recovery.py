@@ -3,11 +3,12 @@
 Each result table (forces of CBAR, stresses of CQUAD4 ...) is one sparse matrix on the
 g-set for its linear quantities, followed by what is not linear (von Mises, principal
 values). A transient multiplies by the operator only; nothing is done per element.
+Dampers add a second matrix, on velocities; loads on elements between their grids
+(PLOAD1) add columns that their factors multiply.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -15,12 +16,13 @@ import scipy.sparse as sp
 
 from fem.assembly import triples_rotation, turn_columns
 from fem.deck.case_control import Selection
-from fem.elements.block import ElementBlock, Recovery
+from fem.elements.block import CENTRE, Detail, ElementBlock, Kind, Recovery
+from fem.loads.element_loads import ElementLoads
 from fem.points import Points
+from fem.sparse_products import shape_of
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
-Kind = Literal["force", "stress"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +36,9 @@ class ElementTable:
         operator: (r, g) sparse, linear quantities of all parts below each other.
         parts: recoveries of the blocks, in the order of the rows.
         order: (e,) positions of `id` in the parts put together.
+        rate: (r, g) what velocities add, None: nothing.
+        of_loads: (r, k) what loads on elements add per unit of their k factors, None:
+            nothing.
     """
 
     table: str
@@ -42,6 +47,8 @@ class ElementTable:
     operator: sp.csr_matrix
     parts: tuple[Recovery, ...]
     order: npt.NDArray[np.intp]
+    rate: sp.csr_matrix | None = None
+    of_loads: Float64 | None = None
 
     def evaluate(self, linear: Float64) -> Float64:
         """Printed columns (..., e, c) from linear quantities (..., r)."""
@@ -56,8 +63,24 @@ class ElementTable:
         return np.concatenate(values, axis=-2)[..., self.order, :]
 
     def of(self, displacement: Float64) -> Float64:
-        """Results (e, c) of displacements (g,), or (k, e, c) of (g, k)."""
-        return self.evaluate((self.operator @ displacement).T)
+        """Results (e, c) of displacements (g,), or (t, e, c) of (g, t), at rest.
+
+        Loads on elements count with the factor one.
+        """
+        linear = (self.operator @ displacement).T
+        if self.of_loads is not None:
+            linear = linear + self.of_loads.sum(axis=1)
+        return self.evaluate(linear)
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Part:
+    """Results of one block within a table."""
+
+    recovery: Recovery
+    operator: sp.csr_matrix
+    rate: sp.csr_matrix | None
+    of_loads: Float64 | None
 
 
 def element_tables(
@@ -65,48 +88,154 @@ def element_tables(
     blocks: Iterable[ElementBlock],
     kind: Kind,
     selection: Selection = "ALL",
+    *,
+    detail: Detail = CENTRE,
+    loads: ElementLoads | None = None,
+    moving: bool = False,
 ) -> list[ElementTable]:
     """Tables of the chosen elements that have results of a kind.
 
     Args:
         points: numbering and displacement frames.
         blocks: the elements.
-        kind: "force" or "stress".
+        kind: "force", "stress" or "strain".
         selection: "ALL", "NONE" or element ids.
+        detail: corners, fibres.
+        loads: loads on elements between their grids.
+        moving: velocities are known; without, dampers have no results.
     """
-    groups: dict[tuple[str, tuple[str, ...]], list[tuple[Recovery, sp.csr_matrix]]] = {}
+    groups: dict[tuple[str, tuple[str, ...]], list[_Part]] = {}
     if selection == "NONE":
         return []
     for block in blocks:
-        recovery = block.forces() if kind == "force" else block.stresses()
-        if recovery is None:
+        recovery = block.recovery(kind, detail)
+        if recovery is None or not (moving or np.any(recovery.matrix)):
             continue
-        dof = block.dof
+        keep = np.full(len(recovery.id), True)
         if selection != "ALL":
             keep = np.isin(recovery.id, np.fromiter(selection, np.int64))
-            recovery, dof = _chosen(recovery, keep), dof[keep]
+            recovery = _chosen(recovery, keep)
         if not len(recovery.id):
             continue
-        operator = _operator(points, block.frame, dof, recovery.matrix)
         key = (recovery.table, recovery.columns)
-        groups.setdefault(key, []).append((recovery, operator))
+        part = _part(points, block, kind, detail, recovery, keep, loads, moving)
+        groups.setdefault(key, []).append(part)
     return [_table(name, columns, parts) for (name, columns), parts in groups.items()]
 
 
-def _table(
-    name: str,
-    columns: tuple[str, ...],
-    parts: list[tuple[Recovery, sp.csr_matrix]],
-) -> ElementTable:
-    ids = np.concatenate([recovery.id for recovery, _ in parts])
+def loaded_bar_tables(
+    points: Points,
+    blocks: Iterable[ElementBlock],
+    selection: Selection,
+    loads: ElementLoads | None,
+) -> list[ElementTable]:
+    """Forces at both ends of the chosen CBAR elements that loads act upon (PLOAD1)."""
+    if loads is None or selection == "NONE":
+        return []
+    loaded = frozenset(loads.id.tolist())
+    return element_tables(
+        points,
+        [block for block in blocks if block.card == "CBAR"],
+        "force",
+        loaded if selection == "ALL" else loaded & selection,
+        detail=Detail(ends=True),
+        loads=loads,
+    )
+
+
+def _part(
+    points: Points,
+    block: ElementBlock,
+    kind: Kind,
+    detail: Detail,
+    recovery: Recovery,
+    keep: npt.NDArray[np.bool_],
+    loads: ElementLoads | None,
+    moving: bool,
+) -> _Part:
+    dof = block.dof[keep]
+    rate = None
+    if moving and recovery.rate is not None and np.any(recovery.rate):
+        rate = _operator(points, block.frame, dof, recovery.rate)
+    return _Part(
+        recovery=recovery,
+        operator=_operator(points, block.frame, dof, recovery.matrix),
+        rate=rate,
+        of_loads=None
+        if loads is None
+        else _of_loads(points, block, kind, detail, recovery.id, loads),
+    )
+
+
+def _of_loads(
+    points: Points,
+    block: ElementBlock,
+    kind: Kind,
+    detail: Detail,
+    ids: Int64,
+    loads: ElementLoads,
+) -> Float64 | None:
+    """(e c, k) what loads on elements of a block take from its linear results."""
+    matrix = block.of_nodal_forces(kind, detail)
+    at = np.flatnonzero(np.isin(loads.id, ids) & np.isin(loads.id, block.id))
+    if matrix is None or not len(at):
+        return None
+    own = np.searchsorted(block.id, loads.id[at])
+    same = (block.dof[own] == loads.dof[at]).all(axis=1)
+    at, own = at[same], own[same]
+    chosen, turn = matrix[own], triples_rotation(points, loads.dof[at])
+    if turn is not None:
+        chosen = turn_columns(chosen, turn)
+    result = np.zeros((len(ids), matrix.shape[1], loads.patterns))
+    row = np.searchsorted(ids, loads.id[at])
+    np.add.at(result, row, -np.einsum("ecj,ejk->eck", chosen, loads.value[at]))
+    return result.reshape(-1, loads.patterns)
+
+
+def _table(name: str, columns: tuple[str, ...], parts: Sequence[_Part]) -> ElementTable:
+    ids = np.concatenate([part.recovery.id for part in parts])
     order = np.argsort(ids, kind="stable")
     return ElementTable(
         table=name,
         columns=columns,
         id=ids[order],
-        operator=sp.csr_matrix(sp.vstack([operator for _, operator in parts])),
-        parts=tuple(recovery for recovery, _ in parts),
+        operator=sp.csr_matrix(sp.vstack([part.operator for part in parts])),
+        parts=tuple(part.recovery for part in parts),
         order=order,
+        rate=_stacked([part.rate for part in parts], parts),
+        of_loads=_below([part.of_loads for part in parts], parts),
+    )
+
+
+def _rows(part: _Part) -> int:
+    return len(part.operator.indptr) - 1
+
+
+def _stacked(
+    matrices: Sequence[sp.csr_matrix | None], parts: Sequence[_Part]
+) -> sp.csr_matrix | None:
+    """Matrices below each other, zero where there is none; None: there are none."""
+    if all(matrix is None for matrix in matrices):
+        return None
+    given = [
+        sp.csr_matrix((_rows(part), shape_of(part.operator)[1]))
+        if matrix is None
+        else matrix
+        for matrix, part in zip(matrices, parts)
+    ]
+    return sp.csr_matrix(sp.vstack(given))
+
+
+def _below(arrays: Sequence[Float64 | None], parts: Sequence[_Part]) -> Float64 | None:
+    """As `_stacked` for arrays."""
+    widths = [array.shape[1] for array in arrays if array is not None]
+    if not widths:
+        return None
+    return np.concatenate(
+        [
+            np.zeros((_rows(part), widths[0])) if array is None else array
+            for array, part in zip(arrays, parts)
+        ]
     )
 
 

@@ -14,11 +14,12 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.deck.case_control import Selection
-from fem.grid_forces import GridForces
+from fem.grid_forces import GridBalance
 from fem.observation import Chunk, Quantity
 from fem.points import Points
 from fem.recovery import ElementTable
 from fem.structure import Structure
+from fem.table_response import TableResponse
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -90,12 +91,12 @@ class ResultFile:
         group.attrs["columns"] = list(table.columns)
         return group
 
-    def write_grid_forces(self, name: str, balance: GridForces) -> None:
-        """The table of a grid point force balance, one dataset per column."""
+    def grid_force_group(self, name: str, balance: GridBalance) -> h5py.Group:
+        """Group of a grid point force balance with the description of its rows."""
         group = self.file.create_group(name)
         group["grid_id"], group["element_id"] = balance.grid_id, balance.element_id
         group["source"] = balance.source.astype(h5py.string_dtype())
-        group["force"] = balance.force
+        return group
 
     def write_energies(
         self,
@@ -103,12 +104,12 @@ class ResultFile:
         energies: dict[str, tuple[Int64, Float64]],
         wanted: Int64 | None,
     ) -> None:
-        """Strain energies by card."""
+        """Strain energies (e,) or (k, e) by card."""
         for card, (ids, values) in energies.items():
             keep = np.full(len(ids), True) if wanted is None else np.isin(ids, wanted)
             if keep.any():
                 group = self.file.create_group(f"{name}/{card}")
-                group["id"], group["value"] = ids[keep], values[keep]
+                group["id"], group["value"] = ids[keep], values[..., keep]
 
     def point_history(
         self,
@@ -124,11 +125,9 @@ class ResultFile:
         layout.describe(self.file, name)
         return PointHistory(self.file, name, layout, quantity, expand, case)
 
-    def table_history(
-        self, name: str, table: ElementTable, expand: sp.csr_matrix, case: int
-    ) -> "TableHistory":
+    def table_history(self, name: str, response: TableResponse) -> "TableHistory":
         """Observer that writes element results while a transient runs."""
-        return TableHistory(self._table_group(name, table), table, expand, case)
+        return TableHistory(self._table_group(name, response.table), response)
 
 
 class PointLayout:
@@ -221,24 +220,21 @@ class PointHistory:
 class TableHistory:
     """Writes element results at every output time; see `Observer`."""
 
-    def __init__(
-        self, group: h5py.Group, table: ElementTable, expand: sp.csr_matrix, case: int
-    ) -> None:
-        self._group, self._table, self._case = group, table, case
-        self._operator = sp.csr_matrix(table.operator @ expand)
+    def __init__(self, group: h5py.Group, response: TableResponse) -> None:
+        self._group, self._response = group, response
         self._value: h5py.Dataset | None = None
 
     def begin(self, time: Float64, cases: int, size: int) -> None:
         """Make the dataset."""
-        shape = (len(time), len(self._table.id), len(self._table.columns))
+        table = self._response.table
+        shape = (len(time), len(table.id), len(table.columns))
         self._value = self._group.create_dataset("value", shape, dtype="f8")
 
     def observe(self, chunk: Chunk) -> None:
         """Write a chunk."""
-        linear = chunk.get("displacement", self._operator)[:, self._case]
         at = slice(chunk.first, chunk.first + len(chunk.time))
         if self._value is not None:
-            self._value[at] = self._table.evaluate(linear)
+            self._value[at] = self._response.values(chunk)
 
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
         """Nothing stays in memory."""

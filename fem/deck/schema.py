@@ -62,7 +62,8 @@ COLUMNS: dict[str, str] = {
     "PVISC": "pid ce cr",
     "CBUSH": "eid pid ga gb g0 x1 x2 x3 cid s ocid s1 s2 s3",  # cid -1: blank
     # k, b, ge per component (6,), 0 where blank; k and b 'RIGID' is refused
-    "PBUSH": "pid ks* bs* ges* mass",
+    # sa st ea et: stress and strain coefficients (RCV)
+    "PBUSH": "pid ks* bs* ges* mass sa st ea et",
     # masses
     "CONM1": "eid g cid ms*",  # ms: (6, 6) symmetric
     "CONM2": "eid g cid m x1 x2 x3 i11 i21 i22 i31 i32 i33",

@@ -2,7 +2,8 @@
 
 Forces and stresses follow Nastran's signs: with the forces F_A of the element at end A
 in element axes, axial P = -F_x, shears V1 = -F_y and V2 = -F_z, torque T = -M_x,
-bending moments M1a = -M_z and M2a = M_y; M1b = M1a - V1 L, M2b = M2a - V2 L.
+bending moments M1a = -M_z and M2a = M_y; at end B M1b = M_z and M2b = -M_y. Shears,
+axial force and torque are those of end A (they change along a bar under PLOAD1).
 """
 
 from dataclasses import dataclass, replace
@@ -15,7 +16,7 @@ import pandas as pd
 
 from fem.elements.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.beam_stiffness import SectionCompliance, beam_stiffness
-from fem.elements.block import Float64, Int64, Recovery
+from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.line_geometry import LineGeometry, congruence
 from fem.elements.orientation import place_lines
@@ -37,6 +38,9 @@ FORCE_COLUMNS = (
     "axial",
     "torque",
 )
+_AT_END = ("bending_moment1", "bending_moment2", "shear1", "shear2", "axial", "torque")
+END_COLUMNS = tuple(f"{name}_{end}" for end in "ab" for name in _AT_END)
+_ENDS = (0, 1, 4, 5, 6, 7, 2, 3, 8, 9, 10, 11)
 STRESS_COLUMNS = (
     *("s1a", "s2a", "s3a", "s4a", "axial", "smaxa", "smina"),
     *("s1b", "s2b", "s3b", "s4b", "smaxb", "sminb"),
@@ -123,8 +127,20 @@ class Bar(DenseBlock):
 
     @cached_property
     def _force_matrix(self) -> Float64:
-        at_a = self._at_ends[:, :6] @ self._map
-        return end_forces(at_a, self.geometry.length)
+        return bar_forces(self._at_ends @ self._map)[:, :8]
+
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery:
+        """Nastran's eight forces, or all six of both ends as table CBAR_ENDS."""
+        if kind != "force":
+            return self.stresses() if kind == "stress" else self.strains()
+        if not detail.ends:
+            return self.forces()
+        return Recovery(
+            table="CBAR_ENDS",
+            columns=END_COLUMNS,
+            matrix=bar_forces(self._at_ends @ self._map)[:, _ENDS],
+            id=self.id,
+        )
 
     def forces(self) -> Recovery:
         return Recovery(
@@ -141,6 +157,26 @@ class Bar(DenseBlock):
             matrix=bar_stress_matrix(self.section) @ self._force_matrix,
             id=self.id,
         )
+
+    def strains(self) -> Recovery:
+        """Stresses over Young's modulus."""
+        stress = self.stresses()
+        return replace(stress, matrix=stress.matrix * self._per_modulus)
+
+    @property
+    def _per_modulus(self) -> Float64:
+        return per_modulus(self.material)
+
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64:
+        """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
+        both = bar_forces(self.geometry.end_forces())
+        if kind == "force" and detail.ends:
+            return both[:, _ENDS]
+        forces = both[:, :8]
+        if kind == "force":
+            return forces
+        stress = bar_stress_matrix(self.section) @ forces
+        return stress if kind == "stress" else stress * self._per_modulus
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,22 +230,26 @@ def bar_stiffness(length: Float64, section: BarSection, material: Isotropic) -> 
     return beam_stiffness(length, compliance)
 
 
-def end_forces(at_a: Float64, length: Float64) -> Float64:
-    """(e, 8, n) Nastran's bar forces from the element's forces at end A (e, 6, n)."""
-    m1a, m2a = -at_a[:, 5], at_a[:, 4]
-    v1, v2 = -at_a[:, 1], -at_a[:, 2]
-    span = length[:, None]
-    rows = [
-        m1a,
-        m2a,
-        m1a - span * v1,
-        m2a - span * v2,
-        v1,
-        v2,
-        -at_a[:, 0],
-        -at_a[:, 3],
-    ]
-    return np.stack(rows, axis=1)
+def bar_forces(at_ends: Float64) -> Float64:
+    """Nastran's bar forces from the forces upon the ends, element axes.
+
+    Args:
+        at_ends: (e, 12, n).
+
+    Returns:
+        (e, 12, n): M1a M2a M1b M2b, then V1 V2 N T at end A and the same at end B.
+        Without loads between the ends these four are equal.
+    """
+    rows = [(5, -1), (4, 1), (11, 1), (10, -1)]
+    rows += [(1, -1), (2, -1), (0, -1), (3, -1), (7, 1), (8, 1), (6, 1), (9, 1)]
+    index, sign = np.array(rows).T
+    return sign[:, None] * at_ends[:, index]
+
+
+def per_modulus(material: Isotropic) -> Float64:
+    """(e, 1, 1) 1 / E, 0 where a material has none."""
+    e = material.e
+    return np.divide(1.0, e, out=np.zeros_like(e), where=e != 0.0)[:, None, None]
 
 
 def bending_stress(

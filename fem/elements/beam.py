@@ -15,10 +15,10 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.elements.bar import bending_stress, end_forces
+from fem.elements.bar import bar_forces, bending_stress, per_modulus
 from fem.elements.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.beam_stiffness import SectionCompliance, beam_stiffness
-from fem.elements.block import Float64, Int64, Recovery
+from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.line_geometry import LineGeometry, congruence
 from fem.elements.orientation import place_lines
@@ -130,19 +130,14 @@ class Beam(DenseBlock):
 
     @cached_property
     def _force_matrix(self) -> Float64:
-        """(e, 8, 12) as for CBAR: M1a M2a M1b M2b V1 V2 N T."""
-        at_a = self._at_ends[:, :6] @ self._map
-        return end_forces(at_a, self.geometry.length)
+        """(e, 12, 12), see `bar_forces`."""
+        return bar_forces(self._at_ends @ self._map)
 
     def forces(self) -> Recovery:
-        bar = self._force_matrix
-        none = np.zeros_like(bar[:, :1])
-        order = ([0, 1, 4, 5, 6, 7], [2, 3, 4, 5, 6, 7])
-        parts = [part for rows in order for part in (bar[:, rows], none)]
         return Recovery(
             table=self.card,
             columns=FORCE_COLUMNS,
-            matrix=np.concatenate(parts, axis=1),
+            matrix=_printed(self._force_matrix),
             id=self.id,
         )
 
@@ -153,6 +148,19 @@ class Beam(DenseBlock):
             matrix=beam_stress_matrix(self.section) @ self._force_matrix,
             id=self.id,
         )
+
+    def strains(self) -> Recovery:
+        """Stresses over Young's modulus."""
+        stress = self.stresses()
+        return replace(stress, matrix=stress.matrix * per_modulus(self.material))
+
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64:
+        """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
+        forces = bar_forces(self.geometry.end_forces())
+        if kind == "force":
+            return _printed(forces)
+        stress = beam_stress_matrix(self.section) @ forces
+        return stress if kind == "stress" else stress * per_modulus(self.material)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -222,12 +230,13 @@ def line_masses(section: BeamSection, material: Isotropic) -> tuple[LineMass, Li
 
 
 def beam_stress_matrix(section: BeamSection) -> Float64:
-    """(e, 8, 8) axial plus bending stress at four points of both ends.
+    """(e, 8, 12) axial plus bending stress at four points of both ends.
 
+    The columns are those of `bar_forces`.
     The moments of the shear centre are moved to the neutral axis first.
     """
     ends = section.ends
-    matrix = np.zeros((len(section.k1), 8, 8))
+    matrix = np.zeros((len(section.k1), 8, 12))
     for end in (0, 1):
         a, y, z = (ends[name][:, end] for name in ("a", "y", "z"))
         at = section.recovery[:, end] - np.stack([y, z], axis=-1)[:, None, :]
@@ -239,8 +248,17 @@ def beam_stress_matrix(section: BeamSection) -> Float64:
         matrix[:, rows, 2 * end] = per_m1
         matrix[:, rows, 2 * end + 1] = per_m2
         # M1 at the neutral axis is M1 + y N, M2 is M2 + z N.
-        matrix[:, rows, 6] = area[:, None] + per_m1 * y[:, None] + per_m2 * z[:, None]
+        matrix[:, rows, 6 + 4 * end] = (
+            area[:, None] + per_m1 * y[:, None] + per_m2 * z[:, None]
+        )
     return matrix
+
+
+def _printed(forces: Float64) -> Float64:
+    """(e, 14, n) the columns of CBEAM from `bar_forces`; no warping torque."""
+    none = np.zeros_like(forces[:, :1])
+    ends = ([0, 1, 4, 5, 6, 7], [2, 3, 8, 9, 10, 11])
+    return np.concatenate([x for end in ends for x in (forces[:, end], none)], axis=1)
 
 
 def read_cbeam(deck: "Deck", points: Points) -> list[Beam]:

@@ -30,8 +30,6 @@ class Recovery:
             to linear quantities.
         id: (e,) element ids.
         rate: (e, c_linear, n) what velocities of the freedoms add (dampers), or None.
-        nodal: (e, c_linear, n) what forces of the element on its freedoms amount to;
-            given by elements that loads may act upon between their grids (PLOAD1).
     """
 
     table: str
@@ -39,7 +37,6 @@ class Recovery:
     matrix: Float64
     id: Int64
     rate: Float64 | None = None
-    nodal: Float64 | None = None
 
     def derive(self, linear: Float64) -> Float64:
         """Printed columns from linear quantities; overridden for von Mises etc.
@@ -64,10 +61,12 @@ class Detail:
     Attributes:
         corner: results of quadrilaterals at the corners, too (CORNER, BILIN, ...).
         fibre: strains of shells at both fibres instead of curvatures (FIBER).
+        ends: forces of CBAR at both ends, which differ under PLOAD1.
     """
 
     corner: bool = False
     fibre: bool = False
+    ends: bool = False
 
 
 CENTRE = Detail()
@@ -125,4 +124,11 @@ class ElementBlock(Protocol):
 
     def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
         """Forces, stresses or strains in the detail that is asked for."""
+        ...
+
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:
+        """(e, c_linear, n) linear quantities from forces upon the element's freedoms.
+
+        None where no load can act on the element between its grids (PLOAD1).
+        """
         ...

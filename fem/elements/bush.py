@@ -6,7 +6,6 @@ wherever it sits.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,6 +41,7 @@ class Bushings(DenseBlock):
         k, b: (e, 6) stiffness and damping along and about the element axes.
         ge: (e, 6) structural damping of each stiffness.
         m: (e,) mass, half to each grid.
+        coefficients: (e, 4) SA ST EA ET for stresses and strains.
     """
 
     motion: Float64
@@ -49,6 +49,7 @@ class Bushings(DenseBlock):
     b: Float64
     ge: Float64
     m: Float64
+    coefficients: Float64
 
     def stiffness(self) -> Float64:
         return self._along_axes(self.k)
@@ -69,22 +70,30 @@ class Bushings(DenseBlock):
         return matrix
 
     def forces(self) -> Recovery:
-        return Recovery(
-            table=self.card, columns=COLUMNS, matrix=self._force_matrix, id=self.id
-        )
+        """Forces of the springs and, in transients, of the dashpots."""
+        return self._recovery(COLUMNS, self.k, self.b)
 
     def stresses(self) -> Recovery:
-        """Forces times the recovery coefficients, which are 1 by default."""
+        """Forces times the coefficients SA and ST of PBUSH (RCV), 1 by default."""
+        stress = np.repeat(self.coefficients[:, :2], 3, axis=1)
+        return self._recovery(STRESS_COLUMNS, stress * self.k, stress * self.b)
+
+    def strains(self) -> Recovery:
+        """Deformations times the coefficients EA and ET of PBUSH (RCV)."""
+        strain = np.repeat(self.coefficients[:, 2:], 3, axis=1)
+        return self._recovery(STRESS_COLUMNS, strain, np.zeros_like(strain))
+
+    def _recovery(
+        self, columns: tuple[str, ...], of_motion: Float64, of_rate: Float64
+    ) -> Recovery:
+        rate = of_rate[:, :, None] * self.motion if np.any(of_rate) else None
         return Recovery(
             table=self.card,
-            columns=STRESS_COLUMNS,
-            matrix=self._force_matrix,
+            columns=columns,
+            matrix=of_motion[:, :, None] * self.motion,
+            rate=rate,
             id=self.id,
         )
-
-    @cached_property
-    def _force_matrix(self) -> Float64:
-        return self.k[:, :, None] * self.motion
 
     def _along_axes(self, values: Float64) -> Float64:
         return congruence(self.motion, values[:, :, None] * np.eye(6))
@@ -119,6 +128,9 @@ def read_cbush(deck: "Deck", points: Points) -> list[Bushings]:
             b=_sixes(values, "bs"),
             ge=_damping_factors(_sixes(values, "ges")),
             m=column(values, "mass"),
+            coefficients=np.stack(
+                [column(values, name) for name in ("sa", "st", "ea", "et")], axis=1
+            ),
         )
     ]
 

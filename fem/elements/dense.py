@@ -58,6 +58,10 @@ class DenseBlock:
             return self.forces()
         return self.stresses() if kind == "stress" else self.strains()
 
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:
+        """None: loads act at the grids only."""
+        return None
+
 
 def some(values: Float64) -> Float64 | None:
     """The array, or None where all of it is zero."""

@@ -40,6 +40,17 @@ class LineGeometry:
             map_[:, k : k + 3, k + 3 : k + 6] = -R_EB @ skew(offset)
         return map_
 
+    def end_forces(self) -> Float64:
+        """(e, 12, 12) forces at the ends in E from forces at the grids in B."""
+        map_ = np.zeros((len(self.length), 12, 12))
+        R_EB = self.R_BE.transpose(0, 2, 1)
+        for k, offset in ((0, self.offset_a), (6, self.offset_b)):
+            map_[:, k : k + 3, k : k + 3] = R_EB
+            map_[:, k + 3 : k + 6, k + 3 : k + 6] = R_EB
+            # Moved by w from the grid, F leaves the moment -w × F.
+            map_[:, k + 3 : k + 6, k : k + 3] = -R_EB @ skew(offset)
+        return map_
+
 
 def skew(v: Float64) -> Float64:
     """(..., 3, 3) matrices [v]× with [v]× a = v × a."""

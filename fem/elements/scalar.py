@@ -61,6 +61,17 @@ class Dashpots(DenseBlock):
     def damping(self) -> Float64:
         return self.b[:, None, None] * _PAIR
 
+    def forces(self) -> Recovery:
+        """Force from velocities."""
+        rate = self.b[:, None, None] * _PAIR[:1]
+        return Recovery(
+            table=self.card,
+            columns=("damper_force",),
+            matrix=np.zeros_like(rate),
+            rate=rate,
+            id=self.id,
+        )
+
 
 @dataclass(frozen=True, kw_only=True)
 class ScalarMasses(DenseBlock):

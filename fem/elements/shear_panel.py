@@ -302,6 +302,12 @@ class ShearPanel(DenseBlock):
             id=self.id,
         )
 
+    def strains(self) -> Recovery:
+        """Stresses over the shear modulus."""
+        stress = self.stresses()
+        per_modulus = 1.0 / self.material.g[:, None, None]
+        return replace(stress, matrix=stress.matrix * per_modulus)
+
 
 @dataclass(frozen=True, kw_only=True)
 class PanelStress(Recovery):

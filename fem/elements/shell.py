@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem.elements.block import Float64, Int64, Recovery
+from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shell_drilling import drilling
 from fem.elements.shell_geometry import Facet, facet, matrix_to_grids, to_grids
@@ -156,9 +156,12 @@ class Shell(DenseBlock):
     def strains(self, *, corner: bool = False, curvature: bool = True) -> Recovery:
         """Strains of the reference surface and curvatures (Nastran's STRCUR).
 
-        With `curvature` False the strains at both fibres (FIBER). Nastran's curvature
+        With `curvature` False the strains at both fibres (FIBER), of laminates always
+        the strains of the plies. Nastran's curvature
         has the sign of its M; the first column is then 0 and -1.
         """
+        if self.property_card == "PCOMP":
+            return self._plies(strain=True)
         resultant = self.resultants(corner=corner)
         flexible = self._flexibility()[:, None]
         plane = flexible @ resultant[:, :, :6]
@@ -181,14 +184,22 @@ class Shell(DenseBlock):
             strain=True,
         )
 
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery:
+        """Results at the centre or with the corners, strains of surface or fibres."""
+        if kind == "force":
+            return self.forces(corner=detail.corner)
+        if kind == "stress":
+            return self.stresses(corner=detail.corner)
+        return self.strains(corner=detail.corner, curvature=not detail.fibre)
+
     def _flexibility(self) -> Float64:
         """(e, 6, 6) pseudo-inverse of [A B; B D]: absent parts give no strain."""
         return _flexibility(
             self.section.membrane, self.section.coupling, self.section.bending
         )
 
-    def _plies(self) -> Recovery:
-        """Ply stresses from the resultants at the centre, turned to material axes."""
+    def _plies(self, *, strain: bool = False) -> Recovery:
+        """Ply results from the resultants at the centre, turned to material axes."""
         resultant = self.resultants()[:, 0]
         turn = strain_rotation(self.angle)
         # Stresses turn with the inverse transpose of what turns strains.
@@ -209,15 +220,16 @@ class Shell(DenseBlock):
             flexible = _flexibility(
                 found.membrane[one], found.coupling[one], found.bending[one]
             )[0]
-            ply = laminate.recovery(flexible).reshape(-1, 8)
+            ply = laminate.recovery(flexible, strain=strain).reshape(-1, 8)
             maps[k, : len(ply)] = ply
         return PlyRecovery(
             table=f"{self.card}_COMPOSITE",
-            columns=ply_names(most),
+            columns=ply_names(most, strain=strain),
             matrix=matrix,
             id=self.id,
             laminate=self.which,
             maps=tuple(maps),
+            strain=strain,
         )
 
 

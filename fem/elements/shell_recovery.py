@@ -19,6 +19,10 @@ from fem.elements.stress_measures import (
 FORCE = ("fx", "fy", "fxy", "mx", "my", "mxy", "tx", "ty")
 _STRESS = ("fibre", "oxx", "oyy", "txy", "angle", "major", "minor", "von_mises")
 _STRAIN = ("fibre", "exx", "eyy", "exy", "angle", "major", "minor", "von_mises")
+_PLY_STRAIN = (
+    *("e11", "e22", "e12", "e1z", "e2z"),
+    *("angle", "major", "minor", "max_shear"),
+)
 _PLY = ("o11", "o22", "t12", "t1z", "t2z", "angle", "major", "minor", "max_shear")
 
 
@@ -42,9 +46,10 @@ def strain_names(points: int) -> tuple[str, ...]:
     return point_names(_fibre_names(_STRAIN), points)
 
 
-def ply_names(plies: int) -> tuple[str, ...]:
-    """Columns of ply stresses, ply k from the bottom with the suffix `_p<k>`."""
-    return tuple(f"{name}_p{k}" for k in range(1, plies + 1) for name in _PLY)
+def ply_names(plies: int, *, strain: bool = False) -> tuple[str, ...]:
+    """Columns of ply results, ply k from the bottom with the suffix `_p<k>`."""
+    names = _PLY_STRAIN if strain else _PLY
+    return tuple(f"{name}_p{k}" for k in range(1, plies + 1) for name in names)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,22 +84,28 @@ class FibreRecovery(Recovery):
 
 @dataclass(frozen=True, kw_only=True)
 class PlyRecovery(Recovery):
-    """Ply stresses from the resultants N M Q at the element centre.
+    """Ply stresses or strains from the resultants N M Q at the element centre.
 
     Attributes:
         laminate: (e,) which of the laminates.
         maps: per laminate (5 p, 8) from resultants in material axes to 11 22 12 1z 2z
             of p plies, NaN where a laminate has fewer. (A tuple: not one per element.)
+        strain: strains instead of stresses; the largest shear is then engineering.
     """
 
     laminate: Int64
     maps: tuple[Float64, ...]
+    strain: bool = False
 
     def derive(self, linear: Float64) -> Float64:
         """(..., e, 9 p) from (..., e, 8) resultants in material axes."""
         ply = np.einsum("eij,...ej->...ei", np.stack(self.maps)[self.laminate], linear)
         ply = ply.reshape(*ply.shape[:-1], -1, 5)
-        angle, major, minor = plane_columns(ply[..., 0], ply[..., 1], ply[..., 2])
-        derived = np.stack([angle, major, minor, 0.5 * (major - minor)], axis=-1)
+        half = 0.5 if self.strain else 1.0
+        angle, major, minor = plane_columns(
+            ply[..., 0], ply[..., 1], half * ply[..., 2]
+        )
+        largest = (major - minor) * (0.5 / half)
+        derived = np.stack([angle, major, minor, largest], axis=-1)
         columns = np.concatenate([ply, derived], axis=-1)
         return columns.reshape(*linear.shape[:-1], -1)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fem.elements.block import Float64
+from fem.elements.block import Float64, Recovery
 from fem.elements.dense import DenseBlock
 from fem.elements.rod import line_springs, unit_axes
 from fem.points import Points
@@ -30,6 +30,21 @@ class Viscous(DenseBlock):
 
     def damping(self) -> Float64:
         return line_springs(self.axis, self.axial, self.torsional)
+
+    def forces(self) -> Recovery:
+        """Axial force and torque from velocities."""
+        rate = np.zeros((len(self.id), 2, 12))
+        for row, value in enumerate((self.axial, self.torsional)):
+            along = value[:, None] * self.axis
+            rate[:, row, 3 * row : 3 * row + 3] = -along
+            rate[:, row, 6 + 3 * row : 9 + 3 * row] = along
+        return Recovery(
+            table=self.card,
+            columns=("axial", "torsion"),
+            matrix=np.zeros_like(rate),
+            rate=rate,
+            id=self.id,
+        )
 
 
 def read_cvisc(deck: "Deck", points: Points) -> list[Viscous]:

@@ -6,13 +6,18 @@ from fem.loads.dynamic import (
     initial_conditions,
     time_steps,
 )
-from fem.loads.static import enforced_displacements, static_load
+from fem.loads.static import (
+    enforced_displacements,
+    static_element_loads,
+    static_load,
+)
 
 __all__ = [
     "Excitation",
     "dynamic_excitation",
     "enforced_displacements",
     "initial_conditions",
+    "static_element_loads",
     "static_load",
     "time_steps",
 ]

@@ -17,6 +17,7 @@ import pandas as pd
 from fem.elements.bar import Bar, read_cbar
 from fem.elements.beam import Beam, BeamSection, read_cbeam
 from fem.errors import InputError
+from fem.loads.element_loads import ElementLoads
 from fem.points import Points
 from fem.tables import where
 
@@ -53,6 +54,16 @@ def bar_loads(
     Raises:
         InputError: unknown types or scales, positions outside the element.
     """
+    loads = loads_of_bars(deck, points, rows)
+    return loads.dof.ravel(), loads.value.ravel()
+
+
+def loads_of_bars(deck: "Deck", points: Points, rows: pd.DataFrame) -> ElementLoads:
+    """PLOAD1 cards as loads of their elements at the grids.
+
+    Raises:
+        InputError: as `bar_loads`.
+    """
     _check(rows)
     lines = _lines(deck, points, rows["eid"].to_numpy(np.int64))
     start, end = _positions(rows, lines.length)
@@ -65,7 +76,11 @@ def bar_loads(
     turned = np.einsum(
         "ekji,ekhj->ekhi", points.rotation[at], basic.reshape(-1, 2, 2, 3)
     )
-    return lines.dof.ravel(), turned.ravel()
+    return ElementLoads(
+        id=rows["eid"].to_numpy(np.int64),
+        dof=lines.dof,
+        value=turned.reshape(-1, 12, 1),
+    )
 
 
 def _check(rows: pd.DataFrame) -> None:

@@ -10,7 +10,8 @@ import scipy.sparse as sp
 
 from fem.deck.case_control import Subcase
 from fem.errors import InputError
-from fem.loads.static import CARDS, static_load
+from fem.loads.element_loads import ElementLoads, below_each_other, side_by_side
+from fem.loads.static import CARDS, static_element_loads, static_load
 from fem.loads.time_functions import Delayed, Pulse, Table, TimeFunction
 from fem.points import Points
 from fem.tables import where
@@ -29,10 +30,13 @@ class Excitation:
     Attributes:
         pattern: (size, k) sparse.
         functions: k functions of time.
+        element_loads: what of the patterns acts on elements between grids; None:
+            nothing.
     """
 
     pattern: sp.csr_matrix
     functions: tuple[TimeFunction, ...]
+    element_loads: ElementLoads | None = None
 
     def evaluate(self, time: npt.ArrayLike) -> Float64:
         """Factors (k, t) at times (t,) s."""
@@ -63,6 +67,7 @@ def dynamic_excitation(
     """
     columns: list[Float64] = []
     functions: list[TimeFunction] = []
+    on_elements: list[tuple[ElementLoads | None, int]] = []
     factors = _factors(deck, subcase.dload) if subcase.dload else {}
     for name in ("TLOAD1", "TLOAD2"):
         rows = deck.cards[name]
@@ -71,11 +76,25 @@ def dynamic_excitation(
             spatial = factors[row["sid"]] * _pattern(
                 deck, points, subcase, name, row, mass_gg
             )
-            for delay, part in _split(deck, points, row, spatial):
-                columns.append(part)
+            loads = _element_loads(deck, points, subcase, row)
+            if loads is not None:
+                loads = loads.times(factors[row["sid"]])
+            for delay, chosen in _split(deck, points, row, spatial):
+                columns.append(np.where(chosen, spatial, 0.0))
                 functions.append(Delayed(function, delay) if delay else function)
+                if loads is None:
+                    on_elements.append((None, 1))
+                else:
+                    at_grids = chosen[loads.dof][:, :, None]
+                    on_elements.append((loads.times(at_grids), 1))
     pattern = np.stack(columns, axis=1) if columns else np.zeros((points.size, 0))
-    return Excitation(pattern=sp.csr_matrix(pattern), functions=tuple(functions))
+    return Excitation(
+        pattern=sp.csr_matrix(pattern),
+        functions=tuple(functions),
+        element_loads=side_by_side(on_elements)
+        if any(loads is not None for loads, _ in on_elements)
+        else None,
+    )
 
 
 def _factors(deck: "Deck", dload: int) -> dict[int, float]:
@@ -174,6 +193,18 @@ def _pattern(
     return total
 
 
+def _element_loads(
+    deck: "Deck", points: Points, subcase: Subcase, row: pd.Series
+) -> ElementLoads | None:
+    """What of `_pattern` acts on elements between grids."""
+    parts = [
+        static_element_loads(deck, points, lid)
+        for lid in _static_sets(deck, subcase.loadset, int(row["exciteid"]))
+    ]
+    parts = [part for part in parts if part is not None]
+    return below_each_other(parts) if parts else None
+
+
 def _static_sets(deck: "Deck", loadset: int, excite: int) -> list[int]:
     """Static load sets behind an EXCITEID."""
     if loadset:
@@ -187,8 +218,8 @@ def _static_sets(deck: "Deck", loadset: int, excite: int) -> list[int]:
 
 def _split(
     deck: "Deck", points: Points, row: pd.Series, pattern: Float64
-) -> list[tuple[float, Float64]]:
-    """Parts of a pattern with one delay each."""
+) -> list[tuple[float, npt.NDArray[np.bool_]]]:
+    """Delays of a pattern, and the rows (size,) that each holds for."""
     delays = np.full(points.size, float(row["delay"]))
     sid = int(row["delayid"])
     if sid:
@@ -199,10 +230,7 @@ def _split(
         dof = points.dof(cards["id"].to_numpy(np.int64), cards["c"].to_numpy(np.int64))
         delays[dof] = cards["t"].to_numpy(np.float64)
     used = np.flatnonzero(pattern)
-    parts = []
-    for delay in np.unique(delays[used]).tolist():
-        parts.append((delay, np.where(delays == delay, pattern, 0.0)))
-    return parts
+    return [(delay, delays == delay) for delay in np.unique(delays[used]).tolist()]
 
 
 def initial_conditions(

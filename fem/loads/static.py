@@ -9,8 +9,9 @@ import scipy.sparse as sp
 
 from fem.constraints.spc import freedoms
 from fem.errors import InputError
-from fem.loads.bar_loads import bar_loads
+from fem.loads.bar_loads import bar_loads, loads_of_bars
 from fem.loads.concentrated import CONCENTRATED
+from fem.loads.element_loads import ElementLoads, below_each_other
 from fem.loads.inertial import ACCELERATIONS, accelerations
 from fem.loads.pressure import pload, pload2, pload4
 from fem.points import Points
@@ -92,6 +93,23 @@ def static_load(
             raise ValueError("GRAV, ACCEL1 and RFORCE need the mass matrix")
         total += sp.csr_matrix(mass_gg) @ field
     return total
+
+
+def static_element_loads(deck: "Deck", points: Points, sid: int) -> ElementLoads | None:
+    """Loads of a load set that act on elements between grids; None: there are none.
+
+    Args:
+        deck, points, sid: as for `static_load`, whose vector contains them.
+    """
+    if not sid or deck.cards["PLOAD1"].empty:
+        return None
+    parts = []
+    for number, factor in load_factors(deck, sid).items():
+        rows = deck.cards["PLOAD1"]
+        rows = rows[rows["sid"] == number]
+        if not rows.empty:
+            parts.append(loads_of_bars(deck, points, rows).times(factor))
+    return below_each_other(parts) if parts else None
 
 
 def _terms(

@@ -8,11 +8,14 @@ from fem.analysis_model import AnalysisModel, analysis_model
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
+from fem.grid_forces import strain_energy
 from fem.linear_solver import SingularMatrixError
 from fem.modes import Modes, ModesError, normal_modes
 from fem.results import ResultFile
 from fem.solution.options import Options
-from fem.solution.static import write_element_results
+from fem.solution.requests import ids_of
+from fem.solution.requests import wanted as asked
+from fem.solution.static import write_element_results, write_grid_forces
 from fem.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
@@ -131,13 +134,37 @@ def _write(
     results.write_points(
         f"{name}/shape", points, shapes.T, wanted.get("DISPLACEMENT", "ALL")
     )
-    if "SPCFORCES" in wanted:
-        matrices = model.matrices
-        residual = matrices.stiffness @ shapes
-        residual -= (matrices.mass @ shapes) * modes.eigenvalue
-        force = model.elimination.spc_force(residual)
-        results.write_points(f"{name}/spc_force", points, force.T, wanted["SPCFORCES"])
+    _write_forces(model, shapes, modes, results, name)
+    if asked(subcase, "ESE") != "NONE":
+        energies = strain_energy(points, model.blocks, shapes)
+        results.write_energies(
+            f"{name}/strain_energy", energies, ids_of(asked(subcase, "ESE"))
+        )
     write_element_results(model, subcase, shapes, results, name)
+
+
+def _write_forces(
+    model: Structure, shapes: Float64, modes: Modes, results: ResultFile, name: str
+) -> None:
+    """Forces of constraint and grid point forces of modes, as far as asked for."""
+    subcase, matrices = model.subcase, model.matrices
+    requests = ("SPCFORCES", "MPCFORCES", "GPFORCE")
+    spc, mpc, grid = (asked(subcase, quantity) for quantity in requests)
+    if spc == mpc == grid == "NONE":
+        return
+    residual = matrices.stiffness @ shapes
+    residual -= (matrices.mass @ shapes) * modes.eigenvalue
+    spc_force = model.elimination.spc_force(residual)
+    mpc_force = model.elimination.mpc_force(residual)
+    for selection, label, force in (
+        (spc, "spc_force", spc_force),
+        (mpc, "mpc_force", mpc_force),
+    ):
+        if selection != "NONE":
+            results.write_points(f"{name}/{label}", model.points, force.T, selection)
+    if grid != "NONE":
+        forces = (np.zeros_like(shapes), spc_force, mpc_force)
+        write_grid_forces(model, subcase, shapes, forces, results, name)
 
 
 def mode_table(modes: Modes) -> str:

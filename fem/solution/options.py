@@ -38,24 +38,25 @@ class Options:
         solver: sparse solver; None: PARDISO where it is installed.
         threads: its threads; None: the environment's number, else all cores.
         envelope: in transients, extremes of all element results over time.
+        bar_loads: results of bars and beams in transients include the part of PLOAD1
+            between their ends, as they do in statics; Nastran leaves it out.
         console: who is told.
     """
 
     solver: SolverName | None = None
     threads: int | None = None
     envelope: bool = False
+    bar_loads: bool = False
     console: Console = field(default_factory=Quiet)
 
 
+_ELEMENTS = frozenset({"FORCE", "STRESS", "STRAIN"})
+_CONSTRAINTS = frozenset({"SPCFORCES", "MPCFORCES", "GPFORCE"})
+_MOTION = frozenset({"DISPLACEMENT", "VELOCITY", "ACCELERATION"})
 # What case control may ask for and each solution writes.
 WRITTEN: dict[int, frozenset[str]] = {
-    101: frozenset(
-        {"DISPLACEMENT", "SPCFORCES", "MPCFORCES", "OLOAD", "FORCE", "STRESS"}
-        | {"GPFORCE", "ESE"}
-    ),
-    103: frozenset({"DISPLACEMENT", "SPCFORCES", "FORCE", "STRESS"}),
-    109: frozenset(
-        {"DISPLACEMENT", "VELOCITY", "ACCELERATION", "SPCFORCES", "FORCE", "STRESS"}
-    ),
+    101: _ELEMENTS | _CONSTRAINTS | {"DISPLACEMENT", "OLOAD", "ESE"},
+    103: _ELEMENTS | _CONSTRAINTS | {"DISPLACEMENT", "ESE"},
+    109: _ELEMENTS | _CONSTRAINTS | _MOTION | {"OLOAD"},
 }
 WRITTEN[112] = WRITTEN[109]

@@ -7,14 +7,16 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.constraints.elimination import Elimination
-from fem.deck.case_control import Selection, Subcase
+from fem.deck.case_control import Subcase
 from fem.errors import InputError
-from fem.grid_forces import grid_forces, strain_energy
+from fem.grid_forces import grid_balance, grids_of, strain_energy
 from fem.linear_solver import SingularMatrixError
-from fem.loads import enforced_displacements, static_load
-from fem.recovery import element_tables
+from fem.loads import enforced_displacements, static_element_loads, static_load
+from fem.loads.element_loads import ElementLoads
+from fem.recovery import element_tables, loaded_bar_tables
 from fem.results import ResultFile
 from fem.solution.options import Options
+from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
 from fem.statics import inertia_relief, solve_static
 from fem.structure import Structure
 
@@ -129,43 +131,63 @@ def _write(
     load: Float64,
     results: ResultFile,
 ) -> None:
-    name, points, wanted = f"static/{subcase.id}", model.points, subcase.outputs
+    name, points, asked = f"static/{subcase.id}", model.points, subcase.outputs
     spc_force = model.elimination.spc_force(residual)
     mpc_force = model.elimination.mpc_force(residual)
     results.write_points(
-        f"{name}/displacement", points, u_g, wanted.get("DISPLACEMENT", "ALL")
+        f"{name}/displacement", points, u_g, asked.get("DISPLACEMENT", "ALL")
     )
     results.write_points(
-        f"{name}/spc_force", points, spc_force, wanted.get("SPCFORCES", "ALL")
+        f"{name}/spc_force", points, spc_force, asked.get("SPCFORCES", "ALL")
     )
     for quantity, label, vector in (
         ("MPCFORCES", "mpc_force", mpc_force),
         ("OLOAD", "applied_load", load),
     ):
-        if wanted.get(quantity, "NONE") != "NONE":
-            results.write_points(f"{name}/{label}", points, vector, wanted[quantity])
-    if wanted.get("GPFORCE", "NONE") != "NONE":
-        balance = grid_forces(
-            points,
-            model.blocks,
-            u_g,
-            load=load,
-            spc_force=spc_force,
-            mpc_force=mpc_force,
-            wanted=_ids(wanted["GPFORCE"]),
-        )
-        results.write_grid_forces(f"{name}/grid_point_force", balance)
-    if wanted.get("ESE", "NONE") != "NONE":
+        if asked.get(quantity, "NONE") != "NONE":
+            results.write_points(f"{name}/{label}", points, vector, asked[quantity])
+    if asked.get("GPFORCE", "NONE") != "NONE":
+        forces = (load[:, None], spc_force[:, None], mpc_force[:, None])
+        write_grid_forces(model, subcase, u_g[:, None], forces, results, name)
+    if asked.get("ESE", "NONE") != "NONE":
         energies = strain_energy(points, model.blocks, u_g)
-        results.write_energies(f"{name}/strain_energy", energies, _ids(wanted["ESE"]))
-    write_element_results(model, subcase, u_g, results, name)
+        results.write_energies(f"{name}/strain_energy", energies, ids_of(asked["ESE"]))
+    loads = static_element_loads(model.deck, points, subcase.load)
+    write_element_results(model, subcase, u_g, results, name, loads)
 
 
-def _ids(selection: Selection) -> npt.NDArray[np.int64] | None:
-    """Ids of a selection, None for all."""
-    if isinstance(selection, str):
-        return None if selection == "ALL" else np.zeros(0, np.int64)
-    return np.fromiter(selection, np.int64)
+def write_grid_forces(
+    model: Structure,
+    subcase: Subcase,
+    u_g: Float64,
+    forces: tuple[Float64, Float64, Float64],
+    results: ResultFile,
+    name: str,
+) -> None:
+    """Grid point force balance of k displacement vectors.
+
+    Args:
+        model: the structure.
+        subcase: its GPFORCE request.
+        u_g: (g, k).
+        forces: applied, of SPC and of MPC, each (g, k).
+        results, name: where to write; (n, 6) for one vector, (k, n, 6) for several.
+    """
+    points = model.points
+    loaded, spc, mpc = (grids_of(points, vector) for vector in forces)
+    balance = grid_balance(
+        points,
+        model.blocks,
+        loaded=loaded,
+        spc=spc,
+        mpc=mpc,
+        wanted=ids_of(wanted(subcase, "GPFORCE")),
+    )
+    grids = 6 * len(points.grid_id)
+    parts = (vector[:grids].T for vector in forces)
+    force = balance.table((balance.elements @ u_g).T, *parts)
+    group = results.grid_force_group(f"{name}/grid_point_force", balance)
+    group["force"] = force[0] if len(force) == 1 else force
 
 
 def write_element_results(
@@ -174,16 +196,29 @@ def write_element_results(
     u_g: Float64,
     results: ResultFile,
     name: str,
+    loads: ElementLoads | None = None,
 ) -> None:
-    """Forces and stresses that a subcase asks for.
+    """Forces, stresses and strains that a subcase asks for.
 
     Args:
         model: the structure.
         subcase: its requests.
         u_g: (g,) displacements, or (g, k) for k sets of results.
         results, name: where to write.
+        loads: loads on elements between their grids.
     """
-    for quantity, kind in (("FORCE", "force"), ("STRESS", "stress")):
-        selection = subcase.outputs.get(quantity, "NONE")
-        for table in element_tables(model.points, model.blocks, kind, selection):
+    detail = detail_of(model.deck, subcase)
+    for quantity, kind in ELEMENT_RESULTS:
+        tables = element_tables(
+            model.points,
+            model.blocks,
+            kind,
+            wanted(subcase, quantity),
+            detail=detail,
+            loads=loads,
+        )
+        if kind == "force":
+            chosen = wanted(subcase, quantity)
+            tables += loaded_bar_tables(model.points, model.blocks, chosen, loads)
+        for table in tables:
             results.write_table(f"{name}/element_{kind}", table, table.of(u_g))

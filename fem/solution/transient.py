@@ -3,7 +3,8 @@
 Subcases that differ by loads and initial conditions only are integrated together.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
@@ -11,22 +12,30 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.analysis_model import AnalysisModel, analysis_model
-from fem.constraint_forces import SpcForceObserver
 from fem.deck.case_control import Selection, Subcase
+from fem.elements.block import Kind
 from fem.envelope import Envelope
 from fem.errors import InputError
+from fem.force_histories import (
+    GridForceHistory,
+    LoadHistory,
+    constraint_force_history,
+)
+from fem.grid_forces import constrained_grids, grid_balance, grids_of
 from fem.linear_solver import SingularMatrixError
 from fem.loads import dynamic_excitation, initial_conditions, time_steps
+from fem.loads.element_loads import ElementLoads, side_by_side
 from fem.modal_damping import modal_ratios
 from fem.modal_transient import modal_transient, residual_vectors
 from fem.observation import Observer
-from fem.recovery import element_tables
+from fem.recovery import ElementTable, element_tables, loaded_bar_tables
 from fem.results import PointLayout, ResultFile
 from fem.solution.modes import mode_table, modes_of
 from fem.solution.options import Options
+from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
 from fem.sparse_products import shape_of
 from fem.structure import Structure
-from fem.time_grid import output_times, step_groups
+from fem.table_response import TableResponse
 from fem.transient import TransientLoad, direct_transient
 
 Float64 = npt.NDArray[np.float64]
@@ -72,13 +81,14 @@ def _direct(
     model: Structure, cases: list[Subcase], results: ResultFile, options: Options
 ) -> None:
     steps = time_steps(model.deck, model.subcase)
-    load_g, u0, v0 = _inputs(model, cases)
+    inputs = _inputs(model, cases)
+    load_g = inputs.load
 
     def reduce() -> AnalysisModel:
         return analysis_model(model, solver=options.solver)
 
     reduced = model.guarded(reduce, dynamic=True, error=SingularMatrixError)
-    observers = _observers(model, cases, reduced, load_g, results, options)
+    observers = _observers(model, cases, reduced, inputs, results, options)
 
     def run() -> Float64:
         return direct_transient(
@@ -87,8 +97,8 @@ def _direct(
             reduced.damping,
             steps=steps,
             load=TransientLoad(reduced.load(load_g.pattern), load_g.evaluate),
-            u0=_start(model, reduced, u0, options),
-            v0=_start(model, reduced, v0, options),
+            u0=_start(model, reduced, inputs.u0, options),
+            v0=_start(model, reduced, inputs.v0, options),
             observers=observers,
             solver=options.solver,
             threads=options.threads,
@@ -105,7 +115,8 @@ def _modal(
 ) -> None:
     steps = time_steps(model.deck, model.subcase)
     reduced, modes = modes_of(model, options)
-    load_g, u0, v0 = _inputs(model, cases)
+    inputs = _inputs(model, cases)
+    load_g = inputs.load
     load = TransientLoad(reduced.load(load_g.pattern), load_g.evaluate)
     options.console.say(mode_table(modes))
     wanted = model.subcase.resvec or str(model.deck.param("RESVEC"))
@@ -115,7 +126,7 @@ def _modal(
             reduced.stiffness, reduced.mass, modes, load.pattern, solver=options.solver
         )
         options.console.say(f"{modes.count - count} residual vectors")
-    observers = _observers(model, cases, reduced, load_g, results, options)
+    observers = _observers(model, cases, reduced, inputs, results, options)
     time = modal_transient(
         modes,
         reduced.mass,
@@ -123,18 +134,25 @@ def _modal(
         steps=steps,
         load=load,
         ratio=modal_ratios(model.deck, model.subcase, modes.frequency_hz),
-        u0=_start(model, reduced, u0, options),
-        v0=_start(model, reduced, v0, options),
+        u0=_start(model, reduced, inputs.u0, options),
+        v0=_start(model, reduced, inputs.v0, options),
         observers=observers,
         progress=options.console.progress("modal transient"),
     )
     _finish(cases, time, observers, results)
 
 
-def _inputs(
-    model: Structure, cases: list[Subcase]
-) -> tuple[TransientLoad, Float64, Float64]:
+@dataclass(frozen=True, kw_only=True)
+class _Inputs:
     """Loads of all cases on the g-set, and initial states (c, g)."""
+
+    load: TransientLoad
+    element_loads: ElementLoads | None
+    u0: Float64
+    v0: Float64
+
+
+def _inputs(model: Structure, cases: list[Subcase]) -> _Inputs:
     mass = model.matrices.mass
     excitations = []
     for case in cases:
@@ -152,18 +170,26 @@ def _inputs(
     patterns = [
         sp.csr_matrix((size, 0)) if e is None else e.pattern for e in excitations
     ]
-    widths = np.cumsum([0, *(shape_of(pattern)[1] for pattern in patterns)])
+    counts = [shape_of(pattern)[1] for pattern in patterns]
+    ends = np.cumsum([0, *counts])
 
     def evaluate(time: Float64) -> Float64:
-        factors = np.zeros((len(cases), widths[-1], len(time)))
+        factors = np.zeros((len(cases), ends[-1], len(time)))
         for i, excitation in enumerate(excitations):
             if excitation is not None:
-                factors[i, widths[i] : widths[i + 1]] = excitation.evaluate(time)
+                factors[i, ends[i] : ends[i + 1]] = excitation.evaluate(time)
         return factors
 
+    on_elements = [None if e is None else e.element_loads for e in excitations]
     states = [initial_conditions(model.deck, model.points, case) for case in cases]
-    load = TransientLoad(sp.csr_matrix(sp.hstack(patterns)), evaluate)
-    return load, np.array([u for u, _ in states]), np.array([v for _, v in states])
+    return _Inputs(
+        load=TransientLoad(sp.csr_matrix(sp.hstack(patterns)), evaluate),
+        element_loads=side_by_side(list(zip(on_elements, counts)))
+        if any(loads is not None for loads in on_elements)
+        else None,
+        u0=np.array([u for u, _ in states]),
+        v0=np.array([v for _, v in states]),
+    )
 
 
 def _start(
@@ -193,11 +219,17 @@ def _observers(
     model: Structure,
     cases: list[Subcase],
     reduced: AnalysisModel,
-    load: TransientLoad,
+    inputs: _Inputs,
     results: ResultFile,
     options: Options,
 ) -> list[Observer]:
     """Writers of everything that the subcases ask for."""
+    if inputs.element_loads is not None and not options.bar_loads:
+        options.console.say(
+            "warning: as in Nastran, forces, stresses and strains of bars and beams "
+            "leave out in a transient what PLOAD1 does between their ends; --bar-loads "
+            "includes it"
+        )
     observers: list[Observer] = []
     for i, case in enumerate(cases):
         name = f"transient/{case.id}"
@@ -214,21 +246,10 @@ def _observers(
                         i,
                     )
                 )
-        if case.outputs.get("SPCFORCES", "NONE") != "NONE":
-            observers.append(_spc_forces(model, case, i, reduced, load, results, name))
-        for request, kind in (("FORCE", "force"), ("STRESS", "stress")):
-            selection = case.outputs.get(request, "NONE")
-            for table in element_tables(model.points, model.blocks, kind, selection):
-                observers.append(
-                    results.table_history(
-                        f"{name}/element_{kind}", table, reduced.expand, i
-                    )
-                )
-            if options.envelope:
-                observers += [
-                    Envelope(table, reduced.expand, f"{name}/envelope/{kind}", i)
-                    for table in element_tables(model.points, model.blocks, kind)
-                ]
+        observers += _forces(model, case, i, reduced, inputs.load, results, name)
+        observers += _element_results(
+            model, case, i, reduced, inputs, results, options, name
+        )
     return observers
 
 
@@ -242,7 +263,48 @@ def _selection(model: Structure, case: Subcase, quantity: str) -> Selection:
     return "ALL" if 8.0 * times * model.points.size < _UNASKED_BYTES else "NONE"
 
 
-def _spc_forces(
+def _element_results(
+    model: Structure,
+    case: Subcase,
+    number: int,
+    reduced: AnalysisModel,
+    inputs: _Inputs,
+    results: ResultFile,
+    options: Options,
+    name: str,
+) -> Iterator[Observer]:
+    """Histories of element results, and their envelopes."""
+    detail = detail_of(model.deck, case)
+    loads = inputs.element_loads if options.bar_loads else None
+    factors = inputs.load.factors
+    for request, kind in ELEMENT_RESULTS:
+
+        def tables(selection: Selection, kind: Kind = kind) -> list[ElementTable]:
+            return element_tables(
+                model.points,
+                model.blocks,
+                kind,
+                selection,
+                detail=detail,
+                loads=loads,
+                moving=True,
+            )
+
+        chosen = tables(wanted(case, request))
+        if kind == "force":
+            chosen += loaded_bar_tables(
+                model.points, model.blocks, wanted(case, request), loads
+            )
+        for table in chosen:
+            response = TableResponse(table, reduced.expand, number, factors)
+            yield results.table_history(f"{name}/element_{kind}", response)
+        if options.envelope and kind != "strain":
+            for table in tables("ALL"):
+                group = f"{name}/envelope/{kind}"
+                yield Envelope(table, reduced.expand, group, number, factors)
+
+
+def _forces(
     model: Structure,
     case: Subcase,
     number: int,
@@ -250,29 +312,40 @@ def _spc_forces(
     load: TransientLoad,
     results: ResultFile,
     name: str,
-) -> Observer:
-    """Writer of SPC forces (t, k, 6)."""
-    layout = PointLayout(model.points, case.outputs["SPCFORCES"])
-    layout.describe(results.file, f"{name}/spc_force")
-    s = model.elimination.s
-    column = np.full(model.points.size, -1)
-    column[s] = np.arange(len(s))
-    columns = column[layout.grid_dof]
-    steps = time_steps(model.deck, case)
-    times = _output_count(steps)
-    dataset = results.file.create_dataset(
-        f"{name}/spc_force", (times, len(layout.grid_id), 6), dtype="f8"
-    )
+) -> Iterator[Observer]:
+    """Histories of applied loads, forces of constraint and grid point forces."""
+    points = model.points
+    for request, kind in (("SPCFORCES", "spc"), ("MPCFORCES", "mpc")):
+        if wanted(case, request) != "NONE":
+            yield constraint_force_history(
+                kind,
+                results.file,
+                f"{name}/{kind}_force",
+                PointLayout(points, wanted(case, request)),
+                model,
+                reduced.expand,
+                load,
+                number,
+            )
+    if wanted(case, "OLOAD") != "NONE":
+        layout = PointLayout(points, wanted(case, "OLOAD"))
+        yield LoadHistory(results.file, f"{name}/applied_load", layout, load, number)
+    if wanted(case, "GPFORCE") != "NONE":
+        single, multi = constrained_grids(points, model.elimination)
+        balance = grid_balance(
+            points,
+            model.blocks,
+            loaded=grids_of(points, abs(load.pattern) @ np.ones(_patterns(load))),
+            spc=single,
+            mpc=multi,
+            wanted=ids_of(wanted(case, "GPFORCE")),
+        )
+        group = results.grid_force_group(f"{name}/grid_point_force", balance)
+        yield GridForceHistory(group, balance, model, reduced.expand, load, number)
 
-    def sink(first: int, force: Float64) -> None:
-        padded = np.hstack([force, np.zeros((len(force), 1))])
-        dataset[first : first + len(force)] = layout.grids(padded[:, columns])
 
-    return SpcForceObserver(model, reduced.expand, load, number, sink)
-
-
-def _output_count(steps: Sequence[tuple[int, float, int]]) -> int:
-    return len(output_times(step_groups(steps)))
+def _patterns(load: TransientLoad) -> int:
+    return shape_of(load.pattern)[1]
 
 
 def _finish(

@@ -46,6 +46,9 @@ def _pbush(card: Any) -> Rows:
         return np.array((padded + [0.0] * 6)[:6])
 
     row: dict[str, Any] = {"pid": card.pid, "mass": card.mass or 0.0}
+    for name in ("sa", "st", "ea", "et"):
+        value = getattr(card, name)
+        row[name] = 1.0 if value is None else float(value)
     return [{**row, "ks": six(card.Ki), "bs": six(card.Bi), "ges": six(card.GEi)}]
 
 
