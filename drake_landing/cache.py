@@ -65,17 +65,25 @@ class Cache:
             key: of `content_key`.
             build: computes them.
         """
-        if self.folder is None:
-            return build()
-        place = self.folder / f"{kind}-{key}"
-        found = self._load(place)
+        found = self.find(kind, key)
         if found is not None:
             return found
         arrays = build()
+        self.keep(kind, key, arrays)
+        return arrays
+
+    def find(self, kind: str, key: str) -> Arrays | None:
+        """The arrays of an entry, None where there is no sound one."""
+        return self._load(self.folder / f"{kind}-{key}") if self.folder else None
+
+    def keep(self, kind: str, key: str, arrays: Mapping[str, npt.NDArray]) -> None:
+        """Makes or replaces an entry."""
+        if self.folder is None:
+            return
+        place = self.folder / f"{kind}-{key}"
         with suppress(OSError):  # a full or read-only disk costs time, not the result
             self._store(place, arrays)
             self._make_room(keep=place)
-        return arrays
 
     def _load(self, place: Path) -> Arrays | None:
         if not place.is_dir():

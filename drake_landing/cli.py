@@ -100,6 +100,30 @@ def show(
     show_model(deck, out or Path("out", deck.stem), modes)
 
 
+@app.command()
+def study(
+    name: Annotated[str, typer.Argument(help="modes, topology or full")],
+    out: Out = None,
+) -> None:
+    """The paper's studies: numbers of modes, gear topologies, the full aircraft."""
+    from drake_landing.progress import reporter
+    from drake_landing.studies import PLANS, run_study
+    from drake_landing.studies.findings import findings
+    from fem.errors import InputError, nearest
+
+    if name not in PLANS:
+        raise InputError(
+            f"study: found '{name}', expected one of {', '.join(PLANS)}"
+            + nearest(name, PLANS)
+        )
+    folder = out or Path("out", name)
+    with reporter() as progress:
+        done = run_study(PLANS[name], folder, progress)
+    for row in findings(done).to_dict("records"):
+        print(f"{row['finding']}: {row['figures']} -- {row['holds']}")
+    print(f"\nreport: {folder / 'report.html'}")
+
+
 def _run(case: "Case", out: Path | None) -> None:
     from drake_landing.process import run_case
     from drake_landing.progress import reporter

@@ -1,0 +1,165 @@
+"""The multibody runs of a study: independent of each other, kept as they end."""
+
+import multiprocessing
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from functools import cache as once
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from drake_landing.axes import rotation_AB
+from drake_landing.cache import Arrays, Cache, content_key
+from drake_landing.case import Case
+from drake_landing.handover import AttachmentLoads, smooth_curve
+from drake_landing.history import gear_peaks
+from drake_landing.inputs import Aircraft
+from drake_landing.landing import build_landing, fly
+from systems.modal_body import ModalBody
+
+Float64 = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class LandingResult:
+    """What a study keeps of a multibody run.
+
+    Attributes:
+        loads: attachment loads on the grid of the transient.
+        acceleration: (t, p, 3) of all monitoring points on that grid, B, m/s².
+        gears: table as in `gears.csv`, without the column `run`.
+        seconds: processor time of the simulation.
+        steps: of the integrator.
+    """
+
+    loads: AttachmentLoads
+    acceleration: Float64
+    gears: pd.DataFrame
+    seconds: float
+    steps: int
+
+
+@dataclass(frozen=True, kw_only=True)
+class LandingTask:
+    """One run, complete."""
+
+    body: ModalBody
+    case: Case
+    aircraft: Aircraft
+
+    @property
+    def key(self) -> str:
+        """Of everything that the run depends on, the program's own text included."""
+        gears = [gear.model_dump_json() for gear in self.aircraft.gears]
+        case = self.case
+        return content_key(
+            source_key("systems", "drake_landing"),
+            dict(vars(self.body)),
+            gears,
+            dict(self.aircraft.monitoring),
+            case.scenario.model_dump_json(),
+            case.simulation.model_dump_json(),
+            [case.transient.step, case.transient_duration],
+            case.airframe.axes.model_dump_json(),
+        )
+
+
+def fly_all(
+    tasks: Sequence[LandingTask], cache: Cache, told: Callable[[int, int], None]
+) -> list[LandingResult]:
+    """Runs what is not in the cache, two at a time where there are two processors.
+
+    Args:
+        tasks: the runs.
+        cache: where results are looked for and kept, each as soon as it is there.
+        told: hears (done, all).
+    """
+    found: dict[int, Arrays] = {}
+    missing = []
+    for i, task in enumerate(tasks):
+        entry = cache.find("landing", task.key)
+        if entry is None:
+            missing.append(i)
+        else:
+            found[i] = entry
+
+    def keep(i: int, arrays: Arrays) -> None:
+        found[i] = arrays
+        cache.keep("landing", tasks[i].key, arrays)
+        told(len(found), len(tasks))
+
+    workers = min(2, len(missing), os.cpu_count() or 1)
+    if workers < 2:
+        for i in missing:
+            keep(i, _fly(tasks[i]))
+    else:
+        context = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(workers, mp_context=context) as pool:
+            futures = {pool.submit(_fly, tasks[i]): i for i in missing}
+            for future in as_completed(futures):
+                keep(futures[future], future.result())
+    return [_result(found[i]) for i in range(len(tasks))]
+
+
+def _fly(task: LandingTask) -> Arrays:
+    case, aircraft = task.case, task.aircraft
+    R_AB, points = rotation_AB(case.airframe.axes), aircraft.monitoring
+    landing = build_landing(task.body, aircraft.gears, points, R_AB, case.scenario)
+    history = fly(landing, case.scenario, case.simulation, points, R_AB)
+    loads = history.attachment_loads().resampled(
+        case.transient.step, case.transient_duration
+    )
+    inside = np.minimum(loads.time, history.time[-1])
+    acceleration = [
+        smooth_curve(history.time, table.to_numpy())(inside)
+        for table in history.monitoring.values()
+    ]
+    gears = gear_peaks("", history)
+    return {
+        "time": loads.time,
+        "node_id": loads.node_id,
+        "load": loads.load,
+        "acceleration": np.stack(acceleration, axis=1),
+        "gear": gears["gear"].to_numpy(str),
+        "quantity": gears["quantity"].to_numpy(str),
+        "peak": gears["peak"].to_numpy(float),
+        "peak_time": gears["time"].to_numpy(float),
+        "cost": np.array(
+            [history.figures["processor_seconds"], history.figures["steps"]]
+        ),
+    }
+
+
+def _result(arrays: Arrays) -> LandingResult:
+    return LandingResult(
+        loads=AttachmentLoads(
+            time=arrays["time"], node_id=arrays["node_id"], load=arrays["load"]
+        ),
+        acceleration=arrays["acceleration"],
+        gears=pd.DataFrame(
+            {
+                "gear": arrays["gear"],
+                "quantity": arrays["quantity"],
+                "peak": arrays["peak"],
+                "time": arrays["peak_time"],
+            }
+        ),
+        seconds=float(arrays["cost"][0]),
+        steps=int(arrays["cost"][1]),
+    )
+
+
+@once
+def source_key(*packages: str) -> str:
+    """Of the program text of packages, without their subpackages."""
+    texts = [
+        file.read_text(encoding="utf-8")
+        for package in packages
+        for file in sorted(Path(str(files(package))).glob("*.py"))
+    ]
+    return content_key(texts)

@@ -1,0 +1,219 @@
+"""The page of a study: findings, figures, tables."""
+
+import platform
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pandas as pd
+
+from drake_landing.report.page import Block, Page, Section, table_block, write_page
+from drake_landing.results import versions
+from drake_landing.studies import figures
+from drake_landing.studies.findings import (
+    estimate_quality,
+    findings,
+    key_figures,
+)
+
+if TYPE_CHECKING:
+    from drake_landing.studies.study import Study
+
+_MEASURES = {
+    "topology": "topology",
+    "selection": "modes",
+    "modes": "number",
+    "point": "point",
+    "peak_fe": "peak, transient m/s²",
+    "time_fe": "at s",
+    "peak_mbs": "peak, multibody m/s²",
+    "time_mbs": "at s ",
+    "peak_error": "peak error",
+    "rms_error": "rms difference",
+    "correlation": "correlation",
+    "sg_magnitude": "S-G magnitude",
+    "sg_phase": "S-G phase",
+    "sprague_geers": "S-G combined",
+}
+_PERCENT = dict.fromkeys(
+    ("peak_error", "rms_error", "sg_magnitude", "sg_phase", "sprague_geers"), ".2%"
+)
+_BUDGET = {
+    "topology": "topology",
+    "selection": "modes",
+    "point": "point",
+    "total": "multibody against FE",
+    "truncation": "truncation",
+    "formulation": "formulation",
+    "integration": "time integration",
+    "rest": "modes above candidates",
+    "feedback": "feedback",
+    "expected": "truncation expected beforehand",
+    "truncated": "truncation found",
+}
+
+
+def write_study_report(path: Path, study: "Study") -> None:
+    """Writes `report.html`."""
+    plan = study.plan
+    write_page(
+        path,
+        Page(
+            name=f"study {plan.name}",
+            title=plan.title,
+            story=_story(study),
+            key_figures=key_figures(study),
+            sections=list(_sections(study)),
+            footer=", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
+            + f", Python {platform.python_version()}. SI units.",
+        ),
+    )
+
+
+def _story(study: "Study") -> str:
+    plan = study.plan
+    counts = sorted({len(run.modes) for run in study.runs})
+    return (
+        f"{len(study.runs)} landings at {plan.scenario.sink_rate:g} m/s sink rate, "
+        f"with {', '.join(map(str, counts))} elastic modes and gear topologies "
+        f"{', '.join(plan.topologies)}; each against the direct transient of the full "
+        "model under its own attachment loads."
+    )
+
+
+def _sections(study: "Study") -> Iterator[Section]:
+    yield Section(
+        id="findings",
+        title="Findings",
+        text="Differences are rms of multibody less direct transient over rms of the "
+        "transient, vertical acceleration.",
+        blocks=[
+            table_block(
+                findings(study),
+                {"finding": "statement", "figures": "figures", "holds": "holds"},
+                {},
+            )
+        ],
+    )
+    yield Section(
+        id="convergence",
+        title="Convergence",
+        text="Lines: modal truncation alone, by frequency (dotted) and by relevance "
+        "(solid), against all candidates. Dots: whole runs, multibody against direct "
+        "transient; filled where relevance chose the modes. The grey line is 1 %.",
+        blocks=[Block(svg=figures.convergence(study))],
+    )
+    for topology in study.plan.topologies:
+        yield Section(
+            id=f"topology-{topology}",
+            title=f"Accelerations, topology {topology}",
+            text="Vertical, increments to steady flight.",
+            blocks=[
+                Block(
+                    svg=figures.accelerations(study, run),
+                    caption=f"{run.name.words}"
+                    + (f", up to {run.highest_hz:.1f} Hz" if len(run.modes) else ""),
+                )
+                for run in study.runs
+                if run.name.topology == topology
+            ],
+        )
+    yield _measures(study)
+    yield _budget(study)
+    if len(study.reductions):
+        yield _reductions(study)
+    yield _costs(study)
+
+
+def _measures(study: "Study") -> Section:
+    table = study.measures
+    shown = table[(table["axis"] == "z") & table["point"].isin(study.plan.points)]
+    formats = {
+        **dict.fromkeys(("peak_fe", "peak_mbs"), ".3f"),
+        **dict.fromkeys(("time_fe", "time_mbs"), ".4f"),
+        **_PERCENT,
+        "correlation": ".5f",
+    }
+    return Section(
+        id="measures",
+        title="Measures",
+        text="Vertical acceleration. All axes and points are in measures.csv and "
+        "comparison.csv.",
+        blocks=[table_block(shown, _MEASURES, formats)],
+    )
+
+
+def _budget(study: "Study") -> Section:
+    shown = study.budgets[study.budgets["point"].isin(study.plan.points)]
+    parts = [name for name in _BUDGET if name not in ("topology", "selection", "point")]
+    return Section(
+        id="budget",
+        title="Error budget",
+        text="Each part measured by itself, rms over rms of the transient, vertical. "
+        "Truncation: modes left out. Formulation: finite rotation and deformed arms of "
+        "the multibody model against linear modes. Time integration: the scheme of the "
+        "transient against the exact response. Feedback: how much the response of the "
+        "full model changes because the gear loads depend on the modes, against the "
+        "run with the best modes; it does not enter the difference. The last two "
+        "columns are of the acceleration vector. " + estimate_quality(study),
+        blocks=[
+            Block(svg=figures.budget_bars(study)),
+            table_block(shown, _BUDGET, dict.fromkeys(parts, ".2%")),
+        ],
+    )
+
+
+def _reductions(study: "Study") -> Section:
+    table = study.reductions.pivot_table(
+        index=["basis", "freedoms", "modes", "axis"],
+        columns="point",
+        values="rms_error",
+    ).reset_index()
+    points = [p for p in study.plan.points if p in table.columns]
+    heads = {"basis": "basis", "freedoms": "freedoms", "modes": "modes", "axis": "axis"}
+    return Section(
+        id="reductions",
+        title="Reduction",
+        text="All modes of the reduced model below the limit of the candidates against "
+        "all candidates of the full model, same loads, no mode left out.",
+        blocks=[
+            table_block(
+                table,
+                heads | {p: p.replace("_", " ") for p in points},
+                dict.fromkeys(points, ".2%"),
+            )
+        ],
+    )
+
+
+def _costs(study: "Study") -> Section:
+    runs = pd.DataFrame(
+        [
+            {
+                "run": str(run.name),
+                "steps": run.landing.steps,
+                "seconds": run.landing.seconds,
+            }
+            for run in study.runs
+        ]
+    )
+    stages = pd.DataFrame(
+        {"stage": study.seconds.keys(), "seconds": study.seconds.values()}
+    )
+    return Section(
+        id="costs",
+        title="Cost",
+        text="What an earlier study had computed came from the cache.",
+        blocks=[
+            table_block(
+                stages,
+                {"stage": "stage", "seconds": "wall time s"},
+                {"seconds": ".1f"},
+            ),
+            table_block(
+                runs,
+                {"run": "landing", "steps": "steps", "seconds": "processor time s"},
+                {"seconds": ".1f"},
+            ),
+        ],
+    )

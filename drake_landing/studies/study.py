@@ -1,0 +1,250 @@
+"""A study: landings with several sets of modes, transients, comparison, budget."""
+
+import time as clock
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from drake_landing.cache import Cache
+from drake_landing.comparison import RunLabel, comparison_table
+from drake_landing.progress import Reporter, Silent
+from drake_landing.results import write_csv
+from drake_landing.studies.airframes import StudyAirframe, study_airframe
+from drake_landing.studies.budget import Budget, error_budget
+from drake_landing.studies.landings import LandingResult, LandingTask, fly_all
+from drake_landing.studies.plan import Plan, RunName
+from drake_landing.studies.reductions import reduction_errors
+from drake_landing.studies.tables import budget_table, convergence_table, study_table
+from drake_landing.studies.transients import TransientTask, respond_all
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class StudyRun:
+    """One landing and its transient.
+
+    Attributes:
+        name: topology and selection.
+        modes: positions of the elastic modes among rigid-body modes and candidates.
+        highest_hz: of these.
+        landing: the multibody run.
+        transient: (t, p, 3) accelerations, direct transient, all monitoring points.
+        expected: (p,) truncation error expected before the run.
+        budget: parts of the difference.
+    """
+
+    name: RunName
+    modes: Int64
+    highest_hz: float
+    landing: LandingResult
+    transient: Float64
+    expected: Float64
+    budget: Budget
+
+    @property
+    def time(self) -> Float64:
+        """(t,) s."""
+        return self.landing.loads.time
+
+
+@dataclass(frozen=True, kw_only=True)
+class Study:
+    """All runs of a plan and what they say.
+
+    Attributes:
+        plan: what was asked for.
+        airframes: topology -> airframe.
+        points: names of all monitoring points, in the order of the arrays.
+        runs: in the order of topologies and selections.
+        comparison: table of `comparison.csv`.
+        measures: as `comparison`, with times of peaks and Sprague-Geers parts.
+        budgets: error budget, a row per run and point, vertical.
+        convergence: modal truncation error over the number of modes.
+        reductions: error of reduced bases.
+        gears: table of `gears.csv`.
+        seconds: stage -> wall time.
+    """
+
+    plan: Plan
+    airframes: Mapping[str, StudyAirframe]
+    points: tuple[str, ...]
+    runs: tuple[StudyRun, ...]
+    comparison: pd.DataFrame
+    measures: pd.DataFrame
+    budgets: pd.DataFrame
+    convergence: pd.DataFrame
+    reductions: pd.DataFrame
+    gears: pd.DataFrame
+    seconds: Mapping[str, float]
+
+
+def run_study(
+    plan: Plan,
+    out: Path,
+    progress: Reporter | None = None,
+    cache: Cache | None = None,
+) -> Study:
+    """Runs a study and writes `comparison.csv`, further tables and `report.html`.
+
+    What an earlier, perhaps interrupted, study has computed is taken from the cache.
+
+    Args:
+        plan: one of `PLANS`, or another.
+        out: folder.
+        progress: told what happens.
+        cache: default: the user's.
+    """
+    tell, cache = progress or Silent(), cache or Cache.of_user()
+    seconds: dict[str, float] = {}
+    begun = clock.perf_counter()
+
+    def lap(name: str) -> None:
+        nonlocal begun
+        now = clock.perf_counter()
+        seconds[name] = seconds.get(name, 0.0) + now - begun
+        begun = now
+
+    airframes = {}
+    for topology in plan.topologies:
+        tell.stage(f"airframe, topology {topology}: candidate modes and their order")
+        airframes[topology] = study_airframe(
+            plan, topology, out / f"topology_{topology}", cache, tell
+        )
+    lap("decks, matrices, candidate modes")
+
+    names = [
+        RunName(topology=t, selection=s)
+        for t in plan.topologies
+        for s in plan.selections
+    ]
+    chosen = [airframes[n.topology].modes(n.parsed) for n in names]
+    tell.stage(f"{len(names)} landings in the multibody model")
+    landings = fly_all(
+        [
+            LandingTask(
+                body=airframes[n.topology].body(modes),
+                case=airframes[n.topology].case,
+                aircraft=airframes[n.topology].aircraft,
+            )
+            for n, modes in zip(names, chosen)
+        ],
+        cache,
+        lambda done, wanted: tell.share(done / wanted, f"{done} of {wanted}"),
+    )
+    lap("landings")
+
+    tell.stage(f"direct transients of the full model, {len(names)} load cases")
+    responses = respond_all(
+        [
+            TransientTask(airframe=airframes[n.topology], loads=landing.loads)
+            for n, landing in zip(names, landings)
+        ],
+        cache,
+        tell.share,
+        tell.stage,
+    )
+    lap("direct transients")
+
+    tell.stage("error budgets")
+    runs = tuple(
+        _run(airframes[name.topology], name, modes, landing, response)
+        for name, modes, landing, response in zip(names, chosen, landings, responses)
+    )
+    points = tuple(next(iter(airframes.values())).aircraft.monitoring)
+    reductions = reduction_errors(plan, airframes, runs, cache)
+    study = Study(
+        plan=plan,
+        airframes=airframes,
+        points=points,
+        runs=runs,
+        comparison=_comparison(airframes, points, runs),
+        measures=study_table(points, runs),
+        budgets=budget_table(points, runs),
+        convergence=convergence_table(airframes, runs),
+        reductions=reductions,
+        gears=pd.concat(
+            [r.landing.gears.assign(run=str(r.name)) for r in runs], ignore_index=True
+        )[["run", "gear", "quantity", "peak", "time"]],
+        seconds=seconds,
+    )
+    lap("budgets and tables")
+    tell.stage("writing tables and report")
+    _write(study, out)
+    return study
+
+
+def _run(
+    airframe: StudyAirframe,
+    name: RunName,
+    modes: Int64,
+    landing: LandingResult,
+    response: Float64,
+) -> StudyRun:
+    frequency = airframe.model.frequency_hz
+    return StudyRun(
+        name=name,
+        modes=modes,
+        highest_hz=float(frequency[modes].max(initial=0.0)),
+        landing=landing,
+        transient=response,
+        expected=airframe.relevance.error(modes),
+        budget=error_budget(
+            airframe.model,
+            modes,
+            landing.loads,
+            landing.acceleration,
+            response,
+            airframe.case.transient.scheme,
+        ),
+    )
+
+
+def _comparison(
+    airframes: Mapping[str, StudyAirframe],
+    points: tuple[str, ...],
+    runs: tuple[StudyRun, ...],
+) -> pd.DataFrame:
+    tables = []
+    for run in runs:
+        airframe = airframes[run.name.topology]
+        label = RunLabel(
+            run=str(run.name),
+            aircraft=airframe.aircraft.name,
+            topology=run.name.topology,
+            basis=airframe.case.airframe.basis,
+            modes=len(run.modes),
+            highest_hz=run.highest_hz,
+        )
+        fe, multibody = (
+            {point: values[:, i] for i, point in enumerate(points)}
+            for values in (run.transient, run.landing.acceleration)
+        )
+        tables.append(comparison_table(label, run.time, fe, multibody))
+    return pd.concat(tables, ignore_index=True)
+
+
+def _write(study: Study, out: Path) -> None:
+    from drake_landing.studies.report import write_study_report
+
+    write_csv(out / "comparison.csv", study.comparison)
+    write_csv(out / "gears.csv", study.gears)
+    write_csv(out / "measures.csv", study.measures)
+    write_csv(out / "budget.csv", study.budgets)
+    write_csv(out / "convergence.csv", study.convergence)
+    if len(study.reductions):
+        write_csv(out / "reductions.csv", study.reductions)
+    np.savez_compressed(
+        out / "histories.npz",
+        time=study.runs[0].time,
+        points=np.array(study.points),
+        runs=np.array([str(run.name) for run in study.runs]),
+        multibody=np.array([run.landing.acceleration for run in study.runs]),
+        transient=np.array([run.transient for run in study.runs]),
+    )
+    write_study_report(out / "report.html", study)
