@@ -70,7 +70,7 @@ class Op2File:
         self._subtable = 0
         self._record(np.array([1, 1, 0], _WORD).tobytes())
         self._record(b"NASTRAN FORT TAPE ID CODE - ")
-        self._record(b"XXXXXXXX")
+        self._record(b"NX8.5   ")
         self._markers(-1, 0)
 
     def begin_table(self, name: str) -> None:

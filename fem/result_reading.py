@@ -1,4 +1,4 @@
-"""Reading result files: their solutions, states and datasets, for other file formats."""
+"""Reading result files: solutions, states and datasets, for other file formats."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -109,8 +109,8 @@ def _ids(group: h5py.Group | h5py.File, name: str) -> Int64 | None:
 
 def solutions(source: h5py.File) -> Iterator[Solution]:
     """All solutions of a result file."""
-    for name in source:
-        group = source[name]
+    for key in source:
+        name, group = str(key), source[key]
         if not isinstance(group, h5py.Group):
             continue
         if name == "modes" or name.startswith("modes_"):
