@@ -4,9 +4,9 @@ The common case of `landing_peers`: simple enough that every multibody code with
 flexible bodies can carry it. SI units; x aft, y to starboard, z up.
 
 Airframe: a lattice of trilinear cubes of 1 m, fuselage 36 x 3 x 3, each wing 3 x 14
-x 1, 60 t, Poisson's ratio 0.3, scaled so that its first free mode is at 2.5 Hz. At each gear
-the four corners of a cube's lower face move as one. Damping proportional to stiffness,
-2 % at 5 Hz.
+x 1, 60 t, Poisson's ratio 0.3, scaled so that its first free mode is at 2.5 Hz. At each
+gear the four corners of a cube's lower face move as one. Damping proportional to
+stiffness, 2 % at 5 Hz.
 
 Gears: oleo of 2 m between the middle of such a face and a point mass, gas n = 1.3 in a
 column of 0.45 m, orifice damping, stops at 0 and 0.40 m; tyre that is stiff upwards

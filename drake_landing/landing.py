@@ -25,6 +25,7 @@ from drake_landing.start import (
     reference_energy,
     set_scenario_state,
 )
+from drake_landing.threads import single_threaded_blas
 from fem.errors import InputError
 from systems.modal_body import ModalBody
 from systems.rotations import rotation_from_quaternion
@@ -94,8 +95,9 @@ def fly(
     start = clock.process_time()
     simulator = _simulator(landing, context, simulation, progress or Silent())
     try:
-        simulator.Initialize()
-        simulator.AdvanceTo(simulation.duration)
+        with single_threaded_blas():
+            simulator.Initialize()
+            simulator.AdvanceTo(simulation.duration)
     except (RuntimeError, SystemExit) as error:  # Drake's checks exit
         raise LandingError(
             f"the landing simulation stopped at {context.get_time():.4f} s of "
