@@ -111,8 +111,8 @@ def test_split_does_not_change_the_landing_of_a_rigid_aircraft():
     ids=["determinate", "rigid and stay", "rigid and elastic stay"],
 )
 def test_energy_closes_and_the_gap_stays_shut(hold):
-    landing = MakeLandingDiagram(aircraft_body(40), _gears(**hold))
-    run = land(landing, duration=0.12, sink_rate=SINK_RATE)
+    landing = MakeLandingDiagram(aircraft_body(20), _gears(**hold))
+    run = land(landing, duration=0.1, sink_rate=SINK_RATE)
     mass = landing.body.mass + sum(gear.mass for gear in landing.gears)
     total = run["energy_budget.total"][0]
     assert np.abs(total - total[0]).max() < 1e-4 * 0.5 * mass * SINK_RATE**2
