@@ -1,5 +1,6 @@
 """Runs a landing of the synthetic aircraft and returns what was logged."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -35,12 +36,14 @@ def land(
     scheme: str = "runge_kutta3",
     rolling: float | None = None,
     flying: bool = False,
+    prepare: Callable[[Context], None] | None = None,
     **state,
 ) -> Run:
     """With error control at `accuracy`, or with a fixed `step`, s.
 
     Just above the runway, undeformed or `flying` as gravity and lift want it, or
-    `rolling` at that speed in static equilibrium.
+    `rolling` at that speed in static equilibrium. `prepare` may set parameters in the
+    context, after the initial state.
     """
     simulator = Simulator(landing.diagram)
     config = SimulatorConfig(
@@ -58,6 +61,8 @@ def land(
             set_flight_equilibrium(landing, context)
     else:
         set_static_equilibrium(landing, context, speed=rolling)
+    if prepare is not None:
+        prepare(context)
     simulator.Initialize()
     simulator.AdvanceTo(duration)
     logs = {name: log.FindLog(context) for name, log in landing.loggers.items()}

@@ -29,10 +29,15 @@ def two_threads():
         assert _threads() == {2}
 
 
+@single_threaded_blas()
+def _fail():
+    assert _threads() == {1}
+    raise ValueError("stop")
+
+
 def test_threads_come_back_after_a_failure():
-    with pytest.raises(ValueError, match="stop"), single_threaded_blas():
-        assert _threads() == {1}
-        raise ValueError("stop")
+    with pytest.raises(ValueError, match="stop"):
+        _fail()
 
 
 def test_landing_runs_with_one_thread():
