@@ -72,11 +72,10 @@ def run(
     bar_loads: Annotated[
         bool,
         typer.Option(
-            "--bar-loads",
-            help="Bars and beams in transients with PLOAD1's part between their ends "
-            "(Nastran leaves it out).",
+            help="Bars and beams in transients with what PLOAD1 does between their "
+            "ends (Nastran's tables leave it out)."
         ),
-    ] = False,
+    ] = True,
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads of the sparse solver.")
     ] = None,

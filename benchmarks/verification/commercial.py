@@ -14,6 +14,7 @@ from benchmarks.verification.row import SURFACES, Row, field, figure, listed
 from benchmarks.verification.runner import run
 from fem.constraints.rbe3 import read_rbe3
 from fem.points import Points
+from fem.solution import Options
 
 
 def expected(references: Path) -> dict:
@@ -200,7 +201,9 @@ def _without_late_additions(path: Path) -> str:
 def line_elements_transient(references: Path) -> list[Row]:
     """tst1d3: bars, beams, tubes, springs with initial velocities; not its CBEND."""
     folder, case = references / "transient_1d", "tst1d3"
-    ours = run(folder / "tst1d3.bdf", ignore=["CBEND", "PBEND"])
+    # NX leaves the part of PLOAD1 between the ends out of its tables.
+    plain = Options(bar_loads=False)
+    ours = run(folder / "tst1d3.bdf", ignore=["CBEND", "PBEND"], options=plain)
     theirs = read_op2(folder / "tst1d3.op2")
     ux = ours.grid("transient/10/displacement", 9)[:, 0]
     rows = [

@@ -30,7 +30,6 @@ _COLUMNS: dict[str, list[int] | None] = {
     "stress/cpenta": None,
     "stress/ctetra": None,
 }
-_OURS = {"celas3": "CELAS1"}
 _LINE_CARDS = ("crod", "cbar", "cbeam", "ctube", "celas3")
 
 
@@ -77,7 +76,7 @@ def element_rows(
     for key, columns in _COLUMNS.items():
         kind, card = key.split("/")
         table = getattr(getattr(op2.op2_results, kind), f"{card}_{kind}", {})
-        ours = f"{name}/element_{kind}/{_OURS.get(card, card.upper())}"
+        ours = f"{name}/element_{kind}/{card.upper()}"
         if subcase not in table or f"{ours}/id" not in results:
             continue
         if sign is not None and kind != "force":

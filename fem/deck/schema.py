@@ -48,13 +48,14 @@ COLUMNS: dict[str, str] = {
     ),
     "PROD": "pid mid a j c nsm",
     "PTUBE": "pid mid od1 t nsm od2",
-    # scalar and bushing elements; c 0 for a scalar point, g 0 for ground
-    "CELAS1": "eid pid g1 c1 g2 c2",
-    "CELAS2": "eid k g1 c1 g2 c2 ge s",
-    "CDAMP1": "eid pid g1 c1 g2 c2",
-    "CDAMP2": "eid b g1 c1 g2 c2",
-    "CMASS1": "eid pid g1 c1 g2 c2",
-    "CMASS2": "eid m g1 c1 g2 c2",
+    # scalar and bushing elements; c 0 for a scalar point, g 0 for ground; card: how
+    # the element was spelled (CELAS3)
+    "CELAS1": "eid pid g1 c1 g2 c2 card",
+    "CELAS2": "eid k g1 c1 g2 c2 ge s card",
+    "CDAMP1": "eid pid g1 c1 g2 c2 card",
+    "CDAMP2": "eid b g1 c1 g2 c2 card",
+    "CMASS1": "eid pid g1 c1 g2 c2 card",
+    "CMASS2": "eid m g1 c1 g2 c2 card",
     "PELAS": "pid k ge s",
     "PDAMP": "pid b",
     "PMASS": "pid m",

@@ -69,6 +69,7 @@ def make_tables(
         else:
             columns = _read_rows(group, _row_reader(name, external), problems)
         if columns:
+            columns["card"] = [name] * len(columns["line"])
             pieces.setdefault(_SYNONYMS.get(name, name), []).append(columns)
     return {name: _frame(name, pieces.get(name, [])) for name in COLUMNS}
 

@@ -47,6 +47,10 @@ class Springs(DenseBlock):
     def stresses(self) -> Recovery:
         return self._recovery("spring_stress", self.k * self.s)
 
+    def strains(self) -> Recovery:
+        """Stress coefficient times elongation, as NX has it."""
+        return self._recovery("spring_strain", self.s)
+
     def _recovery(self, column: str, factor: Float64) -> Recovery:
         matrix = factor[:, None, None] * _PAIR[:1]
         return Recovery(table=self.card, columns=(column,), matrix=matrix, id=self.id)
@@ -93,7 +97,7 @@ def read_celas1(deck: "Deck", points: Points) -> list[Springs]:
     if rows.empty:
         return []
     values = refer(rows, "CELAS1", "pid", table(deck, "PELAS"), "PELAS")
-    return [_springs("CELAS1", rows, values, points)]
+    return [_springs(*part, points) for part in _by_card(rows, values)]
 
 
 def read_celas2(deck: "Deck", points: Points) -> list[Springs]:
@@ -103,7 +107,7 @@ def read_celas2(deck: "Deck", points: Points) -> list[Springs]:
         InputError: undefined freedoms.
     """
     rows = _rows(deck, "CELAS2")
-    return [] if rows.empty else [_springs("CELAS2", rows, rows, points)]
+    return [_springs(*part, points) for part in _by_card(rows, rows)]
 
 
 def read_cdamp(deck: "Deck", points: Points) -> list[Dashpots]:
@@ -137,10 +141,20 @@ def _pairs(deck: "Deck", stem: str, property_card: str):
         values = refer(
             rows, f"{stem}1", "pid", table(deck, property_card), property_card
         )
-        yield f"{stem}1", rows, values
+        yield from _by_card(rows, values)
     rows = _rows(deck, f"{stem}2")
-    if not rows.empty:
-        yield f"{stem}2", rows, rows
+    yield from _by_card(rows, rows)
+
+
+def _by_card(rows: pd.DataFrame, values: pd.DataFrame):
+    """(card, its rows, rows with the values) for each spelling, CELAS1 and CELAS3."""
+    for card in sorted(rows["card"].unique()):
+        own = (rows["card"] == card).to_numpy()
+        yield (
+            card,
+            rows[own].reset_index(drop=True),
+            values[own].reset_index(drop=True),
+        )
 
 
 def _springs(

@@ -38,15 +38,16 @@ class Options:
         solver: sparse solver; None: PARDISO where it is installed.
         threads: its threads; None: the environment's number, else all cores.
         envelope: in transients, extremes of all element results over time.
-        bar_loads: results of bars and beams in transients include the part of PLOAD1
-            between their ends, as they do in statics; Nastran leaves it out.
+        bar_loads: results of bars and beams in transients include what PLOAD1 does
+            between their ends, as they do in statics. Nastran's include it at the
+            stations of CBARAO only; without, its other tables are met.
         console: who is told.
     """
 
     solver: SolverName | None = None
     threads: int | None = None
     envelope: bool = False
-    bar_loads: bool = False
+    bar_loads: bool = True
     console: Console = field(default_factory=Quiet)
 
 

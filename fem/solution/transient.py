@@ -224,11 +224,10 @@ def _observers(
     options: Options,
 ) -> list[Observer]:
     """Writers of everything that the subcases ask for."""
-    if inputs.element_loads is not None and not options.bar_loads:
+    if inputs.element_loads is not None and options.bar_loads:
         options.console.say(
-            "warning: as in Nastran, forces, stresses and strains of bars and beams "
-            "leave out in a transient what PLOAD1 does between their ends; --bar-loads "
-            "includes it"
+            "notice: results of bars and beams include what PLOAD1 does between their "
+            "ends; Nastran's transient tables leave it out (so does --no-bar-loads)"
         )
     observers: list[Observer] = []
     for i, case in enumerate(cases):
