@@ -124,6 +124,37 @@ def study(
     print(f"\nreport: {folder / 'report.html'}")
 
 
+@app.command()
+def reduce(
+    deck: Annotated[Path, typer.Argument(metavar="MODEL.bdf", help="Nastran deck")],
+    basis: Annotated[
+        str, typer.Option("--basis", help="guyan, craig-bampton or dynamic")
+    ] = "guyan",
+    interface: Annotated[
+        str | None,
+        typer.Option("--interface", help="'SET 2' or '11, 20 THRU 30'; default ASET"),
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option("--out", help="folder; default out/<deck name>")
+    ] = None,
+    highest: Annotated[
+        float, typer.Option("--highest", help="craig-bampton: interior modes to, Hz")
+    ] = 150.0,
+    count: Annotated[
+        int, typer.Option("--count", help="dynamic: generalised coordinates")
+    ] = 60,
+    compare: Annotated[
+        float, typer.Option("--compare", help="modes compared with the full model, Hz")
+    ] = 50.0,
+) -> None:
+    """Reduces a deck to interface grids; checks; HDF5, DMIG punch and OUTPUT4."""
+    from drake_landing.reduced.command import reduce_deck
+
+    folder = out or Path("out", deck.stem)
+    options = {"highest_hz": highest, "count": count, "compare_hz": compare}
+    print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
+
+
 def _run(case: "Case", out: Path | None) -> None:
     from drake_landing.process import run_case
     from drake_landing.progress import reporter

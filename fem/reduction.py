@@ -19,6 +19,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.damping import Damping
+from fem.dynamic_reduction import ritz_modes
 from fem.linear_solver import SingularMatrixError, SolverName, factorize
 from fem.modes import Modes, normal_modes
 
@@ -105,6 +106,7 @@ def reduce_craig_bampton(
     *,
     count: int | None = None,
     highest_hz: float | None = None,
+    motions: Float64 | None = None,
     solver: SolverName | None = None,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -115,6 +117,8 @@ def reduce_craig_bampton(
         stiffness, mass, damping, kept, solver, threads, progress: see `reduce_guyan`.
         count: at most this many fixed-interface modes, the lowest.
         highest_hz: only those below this frequency.
+        motions: (f, r); given, the modes are approximate ones (generalised dynamic
+            reduction), from the inertia forces of these motions; `count` is needed.
 
     Raises:
         SingularMatrixError, ValueError: see `reduce_guyan`.
@@ -127,7 +131,11 @@ def reduce_craig_bampton(
         raise ValueError(f"kept rows must be different and within 0 ... {n - 1}")
     o = np.setdiff1d(np.arange(n), a)
     k_oo = sp.csr_matrix(k[o][:, o])
-    modes = _interior_modes(k_oo, m, o, count, highest_hz, solver)
+    if motions is None or len(o) == 0:
+        modes = _interior_modes(k_oo, m, o, count, highest_hz, solver)
+    else:
+        m_oo, load = sp.csr_matrix(m[o][:, o]), (m @ motions)[o]
+        modes = ritz_modes(k_oo, m_oo, load, count or 0, solver=solver)
     q = 0 if modes is None else modes.count
     transform = np.zeros((n, len(a) + q), order="F")
     transform[a, np.arange(len(a))] = 1.0

@@ -1,0 +1,136 @@
+"""Reductions as models of their own: mass, rigid motions, frequencies, files."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drake_landing.aircraft import write_model
+from drake_landing.cli import app, guarded
+from drake_landing.matrices import read_matrices
+from drake_landing.reduced.checks import check_reduction, reduced_modes
+from drake_landing.reduced.interface import case_sets, interface_grids
+from drake_landing.reduced.make import METHODS, Method, reduce_structure
+from fem.deck.reader import read_deck
+from fem.errors import InputError
+from fem.modes import normal_modes
+from fem.structure import Structure
+
+FEW = (
+    "10001, 10010, 10020 THRU 10021, 10030, 10040, 10050, 10060, 10070, 10077,10087,"
+    "11001 THRU 11030, 12001 THRU 12030, 17001 THRU 17003, 19001 THRU 19006"
+)
+
+
+@pytest.fixture(scope="module")
+def con(tmp_path_factory: pytest.TempPathFactory) -> Structure:
+    path = tmp_path_factory.mktemp("con") / "con.bdf"
+    write_model("con", path)
+    return Structure.from_deck(read_deck(path))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_reduction_keeps_mass_and_rigid_motions(con: Structure, method: Method) -> None:
+    reduced = reduce_structure(con, interface_grids(FEW, con), method)
+    checks = check_reduction(con, reduced, 10.0)
+    assert checks.mass.difference.abs().max() < 1e-9
+    assert checks.rigid_modes == 6
+    assert checks.rigid.grounding.max() < 1e-9
+    assert checks.rigid.hz.max() < 1e-3
+    # Grids that follow rigidly or freely move with the model as a whole.
+    model = reduced.model
+    about = con.weight.center
+    follow = model.recovery @ model.rigid_body(about)
+    at = np.searchsorted(model.grid_id, model.followers)
+    arm = model.p[at] - about
+    np.testing.assert_allclose(
+        follow.reshape(len(at), 6, 6)[:, :3, 5],
+        np.column_stack([-arm[:, 1], arm[:, 0], 0 * arm[:, 0]]),
+        atol=1e-7,
+    )
+
+
+def test_generalised_coordinates_bring_the_frequencies_closer(con: Structure) -> None:
+    grids = interface_grids(FEW, con)
+    error = {}
+    full = normal_modes(con.stiffness, con.mass, count=26).frequency_hz[6:]
+    for method in METHODS:
+        reduced = reduce_structure(con, grids, method, count=50, highest_hz=60.0)
+        own = reduced_modes(reduced.model, 50.0).frequency_hz[6:26]
+        assert (own >= full * (1 - 1e-7)).all(), "a reduction stiffens"
+        error[method] = (own / full - 1).max()
+    assert error["craig-bampton"] < 0.05 * error["guyan"]
+    assert error["dynamic"] < 0.05 * error["guyan"]
+    assert error["guyan"] > 1e-3
+
+
+def test_ritz_values_approach_interior_frequencies_from_above(con: Structure) -> None:
+    grids = interface_grids(FEW, con)
+    exact = reduce_structure(con, grids, "craig-bampton", highest_hz=60.0).model
+    ritz = reduce_structure(con, grids, "dynamic", count=40).model
+    k = 5
+    assert (ritz.interior_hz[:k] >= exact.interior_hz[:k] * (1 - 1e-9)).all()
+    np.testing.assert_allclose(ritz.interior_hz[:k], exact.interior_hz[:k], rtol=1e-3)
+
+
+def test_displacement_frames_are_turned_to_the_basic_frame(tmp_path: Path) -> None:
+    deck = Path(__file__).parents[1] / "tiny_aircraft.bdf"
+    plain = Structure.from_deck(read_deck(deck))
+    turned = plain.points.rotation
+    assert not np.allclose(turned, np.eye(3)), "the deck has frames of its own"
+    reduced = reduce_structure(plain, plain.points.grid_id.tolist(), "guyan")
+    model = reduced.model
+    force = model.stiffness @ model.rigid_body()
+    assert np.abs(force).max() < 1e-7 * np.abs(model.stiffness).max()
+    assert check_reduction(plain, reduced, 30.0).modes.error.abs().max() < 1e-6
+
+
+def test_command_writes_the_same_model_in_three_formats(
+    con: Structure, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    line = ["reduce", str(con.deck.path), "--interface", FEW, "--compare", "8"]
+    assert guarded(app, [*line, "--out", str(tmp_path)]) == 0
+    text = capsys.readouterr().out
+    assert "6 modes without strain energy" in text
+    punch, op4, h5 = (
+        read_matrices(tmp_path / f"reduced.{kind}") for kind in ("pch", "op4", "h5")
+    )
+    for name, matrix in op4.items():
+        np.testing.assert_array_equal(h5[name].values, matrix.values)
+        if name == "RRED":  # columns without any term are not punched
+            assert set(map(tuple, punch[name].rows.tolist())) <= {
+                (g, c)
+                for g in (*range(17001, 17004), *range(19001, 19007))
+                for c in range(1, 7)
+            }
+            continue
+        scale = np.abs(matrix.values).max()
+        assert np.abs(punch[name].values - matrix.values).max() < 1e-9 * scale
+    assert (tmp_path / "errors.png").stat().st_size > 5000
+
+
+def test_named_sets_and_bad_interfaces(con: Structure) -> None:
+    assert sorted(case_sets(con.deck.path)) == [1, 2, 3]
+    assert len(interface_grids("set 2", con)) == 261
+    for text, words in (
+        ("SET 9", "no SET 9"),
+        ("1, x", "found 'x'"),
+        (None, "no ASET"),
+    ):
+        with pytest.raises(InputError, match=words):
+            interface_grids(text, con)
+    with pytest.raises(InputError, match="grids 1, 2 are not in"):
+        reduce_structure(con, [1, 2, 10001], "guyan")
+
+
+def test_unknown_basis(con: Structure, capsys: pytest.CaptureFixture[str]) -> None:
+    line = ["reduce", str(con.deck.path), "--interface", "10001", "--basis", "guyen"]
+    assert guarded(app, line) == 2
+    assert "did you mean 'guyan'" in capsys.readouterr().err
+
+
+def test_guyan_onto_everything_has_the_modes_of_the_deck(con: Structure) -> None:
+    reduced = reduce_structure(con, interface_grids("SET 2", con), "guyan")
+    modes = reduced_modes(reduced.model, 3.0)
+    assert modes.rigid == 6
+    np.testing.assert_allclose(modes.frequency_hz[6:], [2.141, 2.884], atol=5e-4)
