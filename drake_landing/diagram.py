@@ -57,8 +57,17 @@ _LOGGED = {
 class LandingDiagram:
     """A landing diagram and its parts.
 
-    One can serve any number of runs, each with its own context: `set_initial_state` of
-    `initial_state`, then a Simulator.
+    Build it once: Drake does not give back the memory of systems written in Python.
+    Any number of runs can follow, each with a context of its own, which holds state,
+    parameters and logs and vanishes with the Simulator:
+
+        simulator = Simulator(landing.diagram)
+        context = simulator.get_mutable_context()
+        set_initial_state(landing, context, v_WG=[-67.0, 0.0, -3.05])
+        strut = landing.shock_absorbers["nose"].GetMyMutableContextFromRoot(context)
+        strut.get_mutable_numeric_parameter(0).SetAtIndex(0, 13e3)  # precharge, N
+        simulator.AdvanceTo(1.0)
+        log = landing.loggers["attachment.load_in_airframe_axes"].FindLog(context)
 
     Attributes:
         diagram: the whole; without lift with the optional input `external_load` of
