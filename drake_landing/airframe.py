@@ -19,10 +19,9 @@ from drake_landing.case import Airframe
 from drake_landing.inputs import Aircraft
 from drake_landing.progress import Reporter, Silent
 from drake_landing.scenario import Scenario
-from drake_landing.selection import relevance_of, select_modes
+from drake_landing.selection import Candidates, select_modes
 from drake_landing.skeleton import Skeleton, element_edges
 from drake_landing.transient_deck import model_selections
-from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.points import Points
 from fem.structure import Structure
@@ -110,7 +109,7 @@ def load_airframe(
         InputError: everything that is wrong with the deck or the nodes.
     """
     tell = progress or Silent()
-    structure = Structure.from_deck(read_deck(aircraft.deck))
+    structure = aircraft.structure()
     check_nodes(structure, aircraft)
     basis = elastic_basis(
         structure,
@@ -122,8 +121,8 @@ def load_airframe(
     if airframe.select.by_relevance:
         if scenario is None:
             raise ValueError(f"select '{airframe.select}' needs a scenario")
-        relevance = relevance_of(structure, basis, airframe, aircraft, scenario)
-        basis = select_modes(basis, relevance, airframe.select)
+        candidates = Candidates.of(structure, basis, airframe, aircraft, scenario)
+        basis = select_modes(candidates, airframe.select)
     if airframe.residual_vectors:
         basis = with_residual_vectors(structure, basis, aircraft.attachment_nodes)
     R_AB = rotation_AB(airframe.axes)

@@ -30,7 +30,7 @@ Model = Literal["con", "pre", "full"]
 Basis = Literal["full-modes", "craig-bampton", "guyan"]
 _SELECTION = (
     r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz|relevance\s+(\d+)"
-    r"|relevance\s+error\s*<=\s*(\d+(?:\.\d*)?)\s*%)\s*$"
+    r"|relevance\s+error\s*<=\s*(\d+(?:\.\d*)?)\s*%|pulses\s+(\d+))\s*$"
 )
 
 
@@ -44,10 +44,11 @@ Gears = Annotated[
 
 class Selection(Section):
     """Which elastic modes: all, the lowest, those below a frequency, or those that
-    matter most under the gears' pulses: so many of them, or as many as an error needs.
+    matter most under the gears' pulses: so many of them, or as many as an error needs;
+    or shapes that are combined from them for these pulses.
     """
 
-    kind: Literal["all", "count", "below", "relevance", "error"]
+    kind: Literal["all", "count", "below", "relevance", "error", "pulses"]
     value: float = 0.0  # number of modes, Hz, or %
 
     def __str__(self) -> str:
@@ -60,21 +61,21 @@ class Selection(Section):
 
     @property
     def by_relevance(self) -> bool:
-        """The modes are chosen among candidates, see `relevance`."""
-        return self.kind in ("relevance", "error")
+        """The modes come from candidates, see `relevance` and `pulse_modes`."""
+        return self.kind in ("relevance", "error", "pulses")
 
 
 def parse_selection(text: Any) -> Any:
-    """`all`, `count N`, `below F Hz`, `relevance N` or `relevance error <= x %`."""
+    """`all`, `count N`, `below F Hz`, `relevance N` or `error <= x %`, `pulses N`."""
     if isinstance(text, Selection):
         return text
     match = re.match(_SELECTION, text) if isinstance(text, str) else None
     if match is None:
         raise ValueError(
-            "expected 'count N', 'below F Hz', 'all', 'relevance N' or "
-            "'relevance error <= x %'"
+            "expected 'count N', 'below F Hz', 'all', 'relevance N', "
+            "'relevance error <= x %' or 'pulses N'"
         )
-    kinds = ("all", "count", "below", "relevance", "error")
+    kinds = ("all", "count", "below", "relevance", "error", "pulses")
     kind, value = next((k, v) for k, v in zip(kinds, match.groups()) if v)
     return Selection(kind=kind, value=0.0 if kind == "all" else float(value))
 
@@ -102,6 +103,37 @@ class Axes(Section):
         return self
 
 
+class Matrices(Section):
+    """Reduced matrices of the user's own, instead of a deck: SI units, basic frame."""
+
+    files: tuple[Path, ...] = Field(
+        description="DMIG (punch), OUTPUT4 or HDF5 of MSC Nastran, relative to the "
+        "case file",
+        min_length=1,
+    )
+    grids: Path = Field(
+        description="CSV table of the interface grids in the order of the matrices: "
+        "id, x, y, z [, components]",
+    )
+    stiffness: str = Field(default="KRED", description="name of K")
+    mass: str = Field(default="MRED", description="name of M")
+    damping: str = Field(default="BRED", description="name of B; may be absent")
+    recovery: str = Field(
+        default="RRED",
+        description="name of the motion of grids without components",
+    )
+
+    @field_validator("files", "grids", mode="after")
+    @classmethod
+    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
+        folder = (info.context or {}).get("folder")
+        if not folder:
+            return found
+        if isinstance(found, tuple):
+            return tuple(Path(folder, path) for path in found)
+        return Path(folder, found)
+
+
 class Airframe(Section):
     """The airframe's finite-element model and its modal body."""
 
@@ -117,6 +149,11 @@ class Airframe(Section):
     deck: Path | None = Field(
         default=None,
         description="Nastran bulk-data file, SI units, relative to the case file",
+    )
+    matrices: Matrices | None = Field(
+        default=None,
+        description="reduced matrices and their grids, instead of `deck`; the direct "
+        "transient then runs on these",
     )
     axes: Axes = Field(default=Axes(), description="axes of the deck's basic frame")
     basis: Basis = Field(
@@ -137,7 +174,7 @@ class Airframe(Section):
         default=Selection(kind="below", value=50.0),
         description="elastic modes of the multibody model: count N, below F Hz, all; "
         "relevance N, relevance error <= x %: those that the gears excite and the "
-        "monitoring points feel most",
+        "monitoring points feel most; pulses N: shapes combined from these",
     )
     candidates: float = number(
         "modes below this frequency are candidates where relevance selects",
@@ -166,15 +203,20 @@ class Airframe(Section):
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:
-        if (self.model is None) == (self.deck is None):
-            raise ValueError("give either `model` (con, pre, full) or `deck` (a file)")
+        given = [x is not None for x in (self.model, self.deck, self.matrices)]
+        if sum(given) != 1:
+            raise ValueError(
+                "give one of `model` (con, pre, full), `deck` (a file) or `matrices`"
+            )
         if self.fixed_interface_modes.by_relevance:
             raise ValueError(
                 f"fixed_interface_modes: found '{self.fixed_interface_modes}', "
                 "expected 'count N', 'below F Hz' or 'all'; relevance is for `select`"
             )
-        if self.deck and not self.monitoring:
-            raise ValueError("a deck needs `monitoring` points: name and grid id")
+        if not self.model and not self.monitoring:
+            raise ValueError(
+                "a deck or matrices need `monitoring` points: name and grid id"
+            )
         return self
 
 
@@ -226,7 +268,7 @@ class Case(Section):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         if self.gears == "d150":
-            if self.airframe.deck:
+            if not self.airframe.model:
                 raise ValueError(
                     "gears: a deck of your own needs its list of gears; d150 belongs "
                     "to the built-in models"

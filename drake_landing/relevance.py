@@ -48,7 +48,38 @@ class ModalModel:
     @property
     def elastic(self) -> Mask:
         """(n,)"""
-        return self.frequency_hz > 0.0
+        return np.asarray(self.frequency_hz > 0.0)
+
+    def of(self, modes: Int64) -> "ModalModel":
+        """Some of the modes."""
+        return ModalModel(
+            frequency_hz=self.frequency_hz[modes],
+            damping=self.damping[modes],
+            monitor=self.monitor[:, :, modes],
+            attachment={n: shape[:, modes] for n, shape in self.attachment.items()},
+        )
+
+    def mixed(self, frequency_hz: Float64, mix: Float64) -> "ModalModel":
+        """Rigid-body modes and combinations of the elastic ones.
+
+        Args:
+            frequency_hz: (k,) of the combinations.
+            mix: (e, k) orthonormal, shapes are elastic modes times mix.
+        """
+        rigid, elastic = ~self.elastic, self.elastic
+
+        def turned(shape: Float64) -> Float64:
+            return np.concatenate(
+                [shape[..., rigid], shape[..., elastic] @ mix], axis=-1
+            )
+
+        damping = np.einsum("ek,e,ek->k", mix, self.damping[elastic], mix)
+        return ModalModel(
+            frequency_hz=np.concatenate([self.frequency_hz[rigid], frequency_hz]),
+            damping=np.concatenate([self.damping[rigid], damping]),
+            monitor=turned(self.monitor),
+            attachment={n: turned(shape) for n, shape in self.attachment.items()},
+        )
 
 
 def modal_accelerations(
@@ -251,6 +282,13 @@ def modal_pulse(model: ModalModel, pulses: Sequence[GearPulses]) -> Float64:
         axis=0,
     )
     return modal_accelerations(model.frequency_hz, model.damping, force, pulses[0].step)
+
+
+def response(model: ModalModel, pulses: Sequence[GearPulses]) -> Float64:
+    """(t, p, 3) accelerations of the monitoring points under all pulses together."""
+    return np.einsum(
+        "tn,pan->tpa", modal_pulse(model, pulses), model.monitor, optimize=True
+    )
 
 
 def _gram(accelerations: Float64) -> Float64:

@@ -29,7 +29,6 @@ from drake_landing.handover import AttachmentLoads
 from drake_landing.relevance import ModalModel, modal_accelerations
 
 Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,7 +48,7 @@ class Budget:
 
 def error_budget(
     model: ModalModel,
-    modes: Int64,
+    chosen: ModalModel,
     loads: AttachmentLoads,
     multibody: Float64,
     transient: Float64,
@@ -59,7 +58,7 @@ def error_budget(
 
     Args:
         model: rigid-body modes and all candidates.
-        modes: positions of the run's elastic modes.
+        chosen: rigid-body modes and those of the run.
         loads: attachment loads on an even grid.
         multibody, transient: (t, p, 3) accelerations of the points of the model.
         scheme: of the transient, `nastran` or `generalised-alpha`.
@@ -67,9 +66,7 @@ def error_budget(
     force = modal_forces(model, loads)
     exact = modal_accelerations(model.frequency_hz, model.damping, force, loads.step)
     every = at_points(model, exact)
-    keep = ~model.elastic
-    keep[modes] = True
-    few = at_points(model, exact, keep)
+    few = exact_response(chosen, loads)
     if scheme == "nastran":
         stepped = nastran_accelerations(model, force, loads.step)
         scheme_all = at_points(model, stepped)
@@ -91,6 +88,15 @@ def modal_forces(model: ModalModel, loads: AttachmentLoads) -> Float64:
             for k, node in enumerate(loads.node_id)
         ],
         axis=0,
+    )
+
+
+def exact_response(model: ModalModel, loads: AttachmentLoads) -> Float64:
+    """(t, p, 3) of the monitoring points, for loads linear between samples."""
+    force = modal_forces(model, loads)
+    return at_points(
+        model,
+        modal_accelerations(model.frequency_hz, model.damping, force, loads.step),
     )
 
 

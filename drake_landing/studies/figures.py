@@ -82,10 +82,12 @@ def _mark_runs(axes, study: "Study", topology: str, point: str, color: str) -> N
         & (table["axis"] == "z")
         & (table["modes"] > 0)
     ]
-    for kind, fill in (("count", "none"), ("below", "none"), ("relevance", color)):
+    marks = {"count": "o", "below": "o", "relevance": "o", "pulses": "D"}
+    for kind, mark in marks.items():
         some = rows[rows["selection"].str.startswith(kind)]
+        fill = "none" if kind in ("count", "below") else color
         axes.plot(
-            some["modes"], some["rms_error"], "o", color=color, markerfacecolor=fill
+            some["modes"], some["rms_error"], mark, color=color, markerfacecolor=fill
         )
 
 
@@ -117,5 +119,6 @@ def budget_bars(study: "Study") -> str:
 
 
 def _short(row: dict) -> str:
-    kind = "rel." if row["selection"].startswith("relevance") else ""
+    words = {"relevance": "rel.", "pulses": "pulse "}
+    kind = words.get(str(row["selection"]).split()[0], "")
     return f"T{row['topology'][:1]}\n{kind}{row['modes']}"

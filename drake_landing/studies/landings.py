@@ -24,6 +24,17 @@ from systems.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
 
+# Modules that a landing does not use: what they say does not change it.
+_UNUSED = {
+    f"drake_landing.{name}"
+    for name in (
+        *("airframe", "audit", "basis", "cache", "cases_io", "cli", "comparison"),
+        *("drop", "explain", "gear_pictures", "inputs", "parts", "practices"),
+        *("process", "progress", "pulse_modes", "pulses", "relevance", "replay"),
+        *("response", "results", "selection", "skeleton", "summary", "transient_deck"),
+    )
+}
+
 
 @dataclass(frozen=True, kw_only=True)
 class LandingResult:
@@ -156,10 +167,11 @@ def _result(arrays: Arrays) -> LandingResult:
 
 @once
 def source_key(*packages: str) -> str:
-    """Of the program text of packages, without their subpackages."""
+    """Of the program text of packages, without subpackages and `_UNUSED` modules."""
     texts = [
         file.read_text(encoding="utf-8")
         for package in packages
         for file in sorted(Path(str(files(package))).glob("*.py"))
+        if f"{package}.{file.stem}" not in _UNUSED
     ]
     return content_key(texts)

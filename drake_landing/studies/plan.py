@@ -79,6 +79,8 @@ class RunName:
             return "rigid airframe" if value == 0 else f"lowest {value:g} modes"
         if kind == "relevance":
             return f"{value:g} most relevant modes"
+        if kind == "pulses":
+            return f"{value:g} modes made for the gears' pulses"
         return f"modes {self.selection}"
 
 
@@ -94,6 +96,7 @@ PLANS = {
             "count 210",
             "relevance 36",
             "relevance 73",
+            "pulses 73",
         ),
     ),
     "topology": Plan(
@@ -101,7 +104,7 @@ PLANS = {
         title="Which attachment topology: DLR-D150-PRE, 73 modes",
         level="pre",
         topologies=("1", "2"),
-        selections=("count 73", "relevance 73"),
+        selections=("count 73", "relevance 73", "pulses 73"),
         reductions=(),
     ),
     "full": Plan(
@@ -111,7 +114,7 @@ PLANS = {
         topologies=("distributed",),
         selections=(
             *("count 0", "below 25 Hz", "below 50 Hz", "below 100 Hz", "below 150 Hz"),
-            *("relevance 46", "relevance 93"),
+            *("relevance 46", "relevance 93", "pulses 93"),
         ),
         candidates=200.0,
         reductions=(),

@@ -8,10 +8,9 @@ import pandas as pd
 
 from drake_landing.basis import elastic_basis
 from drake_landing.cache import Cache
-from drake_landing.relevance import modal_accelerations
 from drake_landing.selection import modal_model
 from drake_landing.studies.airframes import StudyAirframe
-from drake_landing.studies.budget import at_points, modal_forces, rms_share
+from drake_landing.studies.budget import exact_response, rms_share
 from drake_landing.studies.plan import Plan
 
 if TYPE_CHECKING:
@@ -41,7 +40,7 @@ def reduction_errors(
     """
     topology, airframe = next(iter(airframes.items()))
     loads = [r for r in runs if r.name.topology == topology][-1].landing.loads
-    full = _response(airframe.model, loads)
+    full = exact_response(airframe.candidates.model, loads)
     rows = []
     for basis_name in plan.reductions:
         settings = airframe.case.airframe.model_copy(update={"basis": basis_name})
@@ -49,7 +48,7 @@ def reduction_errors(
             airframe.structure, settings, list(airframe.aircraft.nodes), cache=cache
         )
         reduced = modal_model(airframe.structure, basis, airframe.aircraft)
-        error = rms_share(_response(reduced, loads) - full, full)
+        error = rms_share(exact_response(reduced, loads) - full, full)
         for p, point in enumerate(airframe.aircraft.monitoring):
             if point not in plan.points:
                 continue
@@ -58,12 +57,6 @@ def reduction_errors(
                 share = float(error[p, a]) if _moves(full, p, a) else float("nan")
                 rows.append([topology, basis_name, count, freedoms, point, axis, share])
     return pd.DataFrame(rows, columns=COLUMNS)
-
-
-def _response(model, loads) -> np.ndarray:
-    force = modal_forces(model, loads)
-    exact = modal_accelerations(model.frequency_hz, model.damping, force, loads.step)
-    return at_points(model, exact)
 
 
 def _moves(response: np.ndarray, p: int, a: int) -> bool:

@@ -17,7 +17,7 @@ from drake_landing.studies.findings import (
 )
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import Study
+    from drake_landing.studies.study import Study, StudyRun
 
 _MEASURES = {
     "topology": "topology",
@@ -72,7 +72,7 @@ def write_study_report(path: Path, study: "Study") -> None:
 
 def _story(study: "Study") -> str:
     plan = study.plan
-    counts = sorted({len(run.modes) for run in study.runs})
+    counts = sorted({run.choice.count for run in study.runs})
     return (
         f"{len(study.runs)} landings at {plan.scenario.sink_rate:g} m/s sink rate, "
         f"with {', '.join(map(str, counts))} elastic modes and gear topologies "
@@ -100,7 +100,8 @@ def _sections(study: "Study") -> Iterator[Section]:
         title="Convergence",
         text="Lines: modal truncation alone, by frequency (dotted) and by relevance "
         "(solid), against all candidates. Dots: whole runs, multibody against direct "
-        "transient; filled where relevance chose the modes. The grey line is 1 %.",
+        "transient; filled where relevance chose the modes, diamonds where they are "
+        "combined for the gears' pulses. The grey line is 1 %.",
         blocks=[Block(svg=figures.convergence(study))],
     )
     for topology in study.plan.topologies:
@@ -112,7 +113,11 @@ def _sections(study: "Study") -> Iterator[Section]:
                 Block(
                     svg=figures.accelerations(study, run),
                     caption=f"{run.name.words}"
-                    + (f", up to {run.highest_hz:.1f} Hz" if len(run.modes) else ""),
+                    + (
+                        f", up to {run.choice.highest_hz:.1f} Hz"
+                        if run.choice.count
+                        else ""
+                    ),
                 )
                 for run in study.runs
                 if run.name.topology == topology
@@ -123,6 +128,11 @@ def _sections(study: "Study") -> Iterator[Section]:
     if len(study.reductions):
         yield _reductions(study)
     yield _costs(study)
+
+
+def _caption(run: "StudyRun") -> str:
+    last = f", up to {run.choice.highest_hz:.1f} Hz" if run.choice.count else ""
+    return run.name.words + last
 
 
 def _measures(study: "Study") -> Section:

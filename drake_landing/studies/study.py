@@ -13,6 +13,7 @@ from drake_landing.cache import Cache
 from drake_landing.comparison import RunLabel, comparison_table
 from drake_landing.progress import Reporter, Silent
 from drake_landing.results import write_csv
+from drake_landing.selection import Choice
 from drake_landing.studies.airframes import StudyAirframe, study_airframe
 from drake_landing.studies.budget import Budget, error_budget
 from drake_landing.studies.landings import LandingResult, LandingTask, fly_all
@@ -22,7 +23,6 @@ from drake_landing.studies.tables import budget_table, convergence_table, study_
 from drake_landing.studies.transients import TransientTask, respond_all
 
 Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,20 +31,16 @@ class StudyRun:
 
     Attributes:
         name: topology and selection.
-        modes: positions of the elastic modes among rigid-body modes and candidates.
-        highest_hz: of these.
+        choice: its elastic modes.
         landing: the multibody run.
         transient: (t, p, 3) accelerations, direct transient, all monitoring points.
-        expected: (p,) truncation error expected before the run.
         budget: parts of the difference.
     """
 
     name: RunName
-    modes: Int64
-    highest_hz: float
+    choice: Choice
     landing: LandingResult
     transient: Float64
-    expected: Float64
     budget: Budget
 
     @property
@@ -123,16 +119,16 @@ def run_study(
         for t in plan.topologies
         for s in plan.selections
     ]
-    chosen = [airframes[n.topology].modes(n.parsed) for n in names]
+    chosen = [airframes[n.topology].candidates.choose(n.parsed) for n in names]
     tell.stage(f"{len(names)} landings in the multibody model")
     landings = fly_all(
         [
             LandingTask(
-                body=airframes[n.topology].body(modes),
+                body=airframes[n.topology].body(choice),
                 case=airframes[n.topology].case,
                 aircraft=airframes[n.topology].aircraft,
             )
-            for n, modes in zip(names, chosen)
+            for n, choice in zip(names, chosen)
         ],
         cache,
         lambda done, wanted: tell.share(done / wanted, f"{done} of {wanted}"),
@@ -153,8 +149,8 @@ def run_study(
 
     tell.stage("error budgets")
     runs = tuple(
-        _run(airframes[name.topology], name, modes, landing, response)
-        for name, modes, landing, response in zip(names, chosen, landings, responses)
+        _run(airframes[name.topology], name, choice, landing, response)
+        for name, choice, landing, response in zip(names, chosen, landings, responses)
     )
     points = tuple(next(iter(airframes.values())).aircraft.monitoring)
     reductions = reduction_errors(plan, airframes, runs, cache)
@@ -182,21 +178,18 @@ def run_study(
 def _run(
     airframe: StudyAirframe,
     name: RunName,
-    modes: Int64,
+    choice: Choice,
     landing: LandingResult,
     response: Float64,
 ) -> StudyRun:
-    frequency = airframe.model.frequency_hz
     return StudyRun(
         name=name,
-        modes=modes,
-        highest_hz=float(frequency[modes].max(initial=0.0)),
+        choice=choice,
         landing=landing,
         transient=response,
-        expected=airframe.relevance.error(modes),
         budget=error_budget(
-            airframe.model,
-            modes,
+            airframe.candidates.model,
+            choice.model,
             landing.loads,
             landing.acceleration,
             response,
@@ -218,8 +211,8 @@ def _comparison(
             aircraft=airframe.aircraft.name,
             topology=run.name.topology,
             basis=airframe.case.airframe.basis,
-            modes=len(run.modes),
-            highest_hz=run.highest_hz,
+            modes=run.choice.count,
+            highest_hz=run.choice.highest_hz,
         )
         fe, multibody = (
             {point: values[:, i] for i, point in enumerate(points)}

@@ -36,7 +36,7 @@ def study_table(points: Sequence[str], runs: Sequence["StudyRun"]) -> pd.DataFra
                 rows.append(
                     {
                         "topology": run.name.topology,
-                        "modes": len(run.modes),
+                        "modes": run.choice.count,
                         "selection": run.name.selection,
                         "point": point,
                         "axis": axis,
@@ -77,12 +77,12 @@ def budget_table(points: Sequence[str], runs: Sequence["StudyRun"]) -> pd.DataFr
             rows.append(
                 {
                     "topology": run.name.topology,
-                    "modes": len(run.modes),
+                    "modes": run.choice.count,
                     "selection": run.name.selection,
                     "point": point,
                     **{name: float(share[p, 2]) for name, share in shares.items()},
                     "feedback": float(feedback[p, 2]),
-                    "expected": float(run.expected[p]),
+                    "expected": float(run.choice.expected[p]),
                     "truncated": float(truncated[p]),
                 }
             )
@@ -106,14 +106,14 @@ def convergence_table(
     rows = []
     for topology, airframe in airframes.items():
         loads = [r for r in runs if r.name.topology == topology][-1].landing.loads
-        model = airframe.model
+        model = airframe.candidates.model
         q = modal_accelerations(
             model.frequency_hz, model.damping, modal_forces(model, loads), loads.step
         )
         every = at_points(model, q)
         orders = {
-            "lowest": airframe.relevance.elastic,
-            "relevance": airframe.relevance.order,
+            "lowest": airframe.candidates.relevance.elastic,
+            "relevance": airframe.candidates.relevance.order,
         }
         for order, modes in orders.items():
             for count in [c for c in _COUNTS if c < len(modes)]:

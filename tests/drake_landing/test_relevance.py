@@ -19,8 +19,9 @@ from drake_landing.relevance import (
     Relevance,
     modal_accelerations,
     modal_pulse,
+    response,
 )
-from drake_landing.selection import modal_model, relevance_of, select_modes
+from drake_landing.selection import Candidates, modal_model, select_modes
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.modal_transient import modal_transient
@@ -55,9 +56,14 @@ def basis(structure: Structure, aircraft: Aircraft) -> Basis:
 
 
 @pytest.fixture(scope="module")
-def relevance(structure: Structure, basis: Basis, aircraft: Aircraft) -> Relevance:
+def candidates(structure: Structure, basis: Basis, aircraft: Aircraft) -> Candidates:
     case = tiny()
-    return relevance_of(structure, basis, case.airframe, aircraft, case.scenario)
+    return Candidates.of(structure, basis, case.airframe, aircraft, case.scenario)
+
+
+@pytest.fixture(scope="module")
+def relevance(candidates: Candidates) -> Relevance:
+    return candidates.relevance
 
 
 def test_modal_accelerations_are_exact_for_linear_pieces() -> None:
@@ -108,7 +114,9 @@ def test_symmetric_landings_leave_antisymmetric_modes_out(
     assert not lateral[most].any()
     case = tiny(scenario=", roll: 3")
     assert not is_symmetric(case.scenario)
-    rolled = relevance_of(structure, basis, case.airframe, aircraft, case.scenario)
+    rolled = Candidates.of(
+        structure, basis, case.airframe, aircraft, case.scenario
+    ).relevance
     rolling = np.abs(model.monitor[3, 2] + model.monitor[4, 2]) < 1e-6  # wing tips
     assert rolling[rolled.order[:half]].any()
     assert not rolling[most].any()
@@ -168,23 +176,23 @@ def test_a_mode_that_nobody_sees_comes_last() -> None:
 
 
 @pytest.mark.parametrize(
-    ("select", "count"), [("relevance 12", 12), ("below 20 Hz", 8)]
+    ("select", "count"), [("relevance 12", 12), ("pulses 9", 9), ("below 20 Hz", 8)]
 )
 def test_case_selects(select: str, count: int, aircraft: Aircraft) -> None:
     case = tiny(select, "\n  candidates: 2000")
     model = load_airframe(case.airframe, aircraft, scenario=case.scenario)
     assert model.body.n == count
     assert np.all(np.diff(model.body.frequency) >= 0)
-    told = any("selected by relevance" in notice for notice in model.notices)
+    told = any("expected truncation" in notice for notice in model.notices)
     assert told == case.airframe.select.by_relevance
 
 
 def test_an_error_buys_as_many_modes_as_it_needs(
-    basis: Basis, relevance: Relevance
+    candidates: Candidates, relevance: Relevance
 ) -> None:
     for percent in (5.0, 1.0):
         select = tiny(f"relevance error <= {percent:g} %").airframe.select
-        n = len(select_modes(basis, relevance, select).frequency_hz)
+        n = len(select_modes(candidates, select).frequency_hz)
         assert relevance.error(relevance.order[:n]).max() <= percent / 100
         assert relevance.error(relevance.order[: n - 1]).max() > percent / 100
 
@@ -208,9 +216,48 @@ def test_residual_vectors_answer_statically_right(
 
 
 def test_selections_read_as_written() -> None:
-    for text in ("relevance 40", "relevance error <= 2.5 %", "below 50 Hz", "all"):
+    for text in (
+        "pulses 7",
+        "relevance 40",
+        "relevance error <= 2.5 %",
+        "below 50 Hz",
+        "all",
+    ):
         assert str(Airframe(model="con", select=text).select) == text
     with pytest.raises(InputError, match="relevance error <= x %"):
         tiny("relevance error 3")
     with pytest.raises(InputError, match="relevance is for"):
         tiny("all", "\n  fixed_interface_modes: relevance 5")
+
+
+def test_pulse_modes_are_a_modal_body(
+    structure: Structure, candidates: Candidates, basis: Basis
+) -> None:
+    choice = candidates.choose(tiny("pulses 20").airframe.select)
+    shape, frequency = choice.basis.shape, choice.basis.frequency_hz
+    np.testing.assert_allclose(
+        shape.T @ (structure.mass @ shape), np.eye(20), atol=1e-9
+    )
+    np.testing.assert_allclose(
+        shape.T @ (structure.stiffness @ shape),
+        np.diag((2 * np.pi * frequency) ** 2),
+        atol=1e-8 * (2 * np.pi * frequency[-1]) ** 2,
+    )
+    rigid = structure.rigid_body
+    assert np.abs(rigid.T @ (structure.mass @ shape)).max() < 1e-6 * rigid.shape[0]
+    assert frequency[-1] <= basis.frequency_hz[-1]
+
+
+def test_pulse_modes_converge(candidates: Candidates) -> None:
+    # Under pulses other than those they were made for.
+    whole = response(candidates.model, candidates.other_pulses)
+
+    def missing(count: int) -> float:
+        model = candidates.choose(tiny(f"pulses {count}").airframe.select).model
+        lost = response(model, candidates.other_pulses) - whole
+        return float(np.sqrt((lost**2).sum() / (whole**2).sum()))
+
+    errors = [missing(count) for count in (6, 12, 24, 48)]
+    assert errors == sorted(errors, reverse=True)
+    assert errors[2] < 1e-3
+    assert errors[3] < 1e-5
