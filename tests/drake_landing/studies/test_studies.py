@@ -1,0 +1,140 @@
+"""A small study on the conceptual aircraft: what it claims, and that it resumes."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from drake_landing.cache import Cache
+from drake_landing.case import Simulation, Transient
+from drake_landing.comparison import COLUMNS
+from drake_landing.studies import PLANS, Study, run_study
+from drake_landing.studies import study as story
+from drake_landing.studies.plan import RunName
+
+PLAN = replace(
+    PLANS["modes"],
+    name="small",
+    level="con",
+    topologies=("2",),
+    selections=("count 0", "count 40", "relevance 40"),
+    candidates=200.0,
+    simulation=Simulation(duration=0.12),
+    transient=Transient(step=2.5e-4),
+)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("study")
+
+
+@pytest.fixture(scope="module")
+def study(folder: Path) -> Study:
+    return run_study(PLAN, folder / "out", cache=Cache(folder / "cache"))
+
+
+def vertical(study: Study, selection: str) -> pd.DataFrame:
+    table = study.measures
+    keep = (table["selection"] == selection) & (table["axis"] == "z")
+    return table.loc[keep & table["point"].isin(PLAN.points)]
+
+
+def test_relevant_modes_come_closer_than_the_lowest(study: Study) -> None:
+    rigid, lowest, relevant = (
+        vertical(study, s)["rms_error"].max() for s in PLAN.selections
+    )
+    assert rigid > 0.8
+    assert relevant < 0.4 * lowest < lowest < rigid
+
+
+def test_budget_adds_up_to_the_difference(study: Study) -> None:
+    for run in study.runs:
+        whole = run.landing.acceleration - run.transient
+        np.testing.assert_allclose(
+            run.budget.total, whole, atol=1e-9 * np.abs(whole).max()
+        )
+
+
+def test_the_difference_is_truncation(study: Study) -> None:
+    # Linear modes reproduce the multibody model, and the scheme of the transient.
+    table = study.budgets[study.budgets["point"].isin(PLAN.points)]
+    assert table["formulation"].max() < 2e-3
+    assert table["integration"].max() < 1e-2
+    assert table["rest"].max() < 3e-2
+    elastic = table[table["modes"] > 0]
+    assert (elastic["truncation"] / elastic["total"]).between(0.6, 1.6).all()
+
+
+def test_truncation_was_expected(study: Study) -> None:
+    table = study.budgets[study.budgets["point"].isin(PLAN.points)]
+    ratio = table["expected"] / table["truncated"]
+    assert ratio.between(0.4, 2.5).all()
+
+
+def test_interface_of_the_beam_aircraft_loses_nothing(study: Study) -> None:
+    # Its masses sit at the nodes that the reduction keeps.
+    assert set(study.reductions["basis"]) == {"guyan", "craig-bampton"}
+    assert study.reductions["rms_error"].max() < 1e-3
+
+
+def test_files(study: Study, folder: Path) -> None:
+    out = folder / "out"
+    table = pd.read_csv(out / "comparison.csv")
+    assert list(table.columns) == COLUMNS
+    assert table["run"].nunique() == len(PLAN.selections)
+    assert set(pd.read_csv(out / "gears.csv")["gear"]) == {
+        *("nose", "main_left", "main_right")
+    }
+    page = (out / "report.html").read_text(encoding="utf-8")
+    assert page.count("<svg") == len(study.runs) + 2
+    assert "<script" not in page
+    for name in ("measures", "budget", "convergence", "reductions"):
+        assert len(pd.read_csv(out / f"{name}.csv"))
+    with np.load(out / "histories.npz") as file:
+        assert file["multibody"].shape == file["transient"].shape
+
+
+def test_second_time_computes_nothing(
+    study: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def never(*_args: object) -> None:
+        raise AssertionError("was to come from the cache")
+
+    monkeypatch.setattr("drake_landing.studies.landings._fly", never)
+    monkeypatch.setattr("drake_landing.studies.transients._respond", never)
+    monkeypatch.setattr("drake_landing.basis._elastic", never)
+    again = run_study(PLAN, folder / "again", cache=Cache(folder / "cache"))
+    pd.testing.assert_frame_equal(again.comparison, study.comparison)
+
+
+def test_an_interrupted_study_keeps_its_landings(
+    study: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_args: object) -> None:
+        raise KeyboardInterrupt
+
+    cache = Cache(folder / "other_cache")
+    monkeypatch.setattr(story, "respond_all", interrupted)
+    plan = replace(PLAN, selections=("count 0",))
+    with pytest.raises(KeyboardInterrupt):
+        run_study(plan, folder / "broken", cache=cache)
+    monkeypatch.undo()
+    monkeypatch.setattr(
+        "drake_landing.studies.landings._fly", lambda _task: pytest.fail("flown twice")
+    )
+    resumed = run_study(plan, folder / "broken", cache=cache)
+    first = study.runs[0].landing.acceleration
+    np.testing.assert_allclose(
+        resumed.runs[0].landing.acceleration, first, atol=1e-9 * np.abs(first).max()
+    )
+
+
+def test_names_of_runs() -> None:
+    name = RunName(topology="2", selection="relevance error <= 2 %")
+    assert str(name) == "topology_2_relevance_error_2pc"
+    assert RunName(topology="1", selection="count 0").words == "rigid airframe"
+    with pytest.raises(ValueError, match="expected"):
+        RunName(topology="1", selection="most of them")
