@@ -6,8 +6,6 @@ from tempfile import TemporaryDirectory
 from drake_landing.airframe import check_nodes
 from drake_landing.case import Case
 from drake_landing.inputs import prepare_aircraft
-from fem.deck.reader import read_deck
-from fem.structure import Structure
 
 
 def explain(case: Case) -> str:
@@ -18,7 +16,7 @@ def explain(case: Case) -> str:
     """
     with TemporaryDirectory() as folder:
         aircraft = prepare_aircraft(case, Path(folder))
-        structure = Structure.from_deck(read_deck(aircraft.deck))
+        structure = aircraft.structure()
         check_nodes(structure, aircraft)
     mass = structure.weight.total
     x, y, z = structure.weight.center.round(3) + 0.0  # no minus zero

@@ -1,13 +1,16 @@
 """The aircraft of a case: a user's deck with gears, or a built-in reference."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from drake_landing.case import Case
+from drake_landing.case import Case, Matrices
 from drake_landing.gear import LandingGear
 from drake_landing.scenario import Lift, Scenario
+from fem.deck.deck import Deck
+from fem.deck.reader import read_deck
 from fem.errors import InputError
+from fem.structure import Structure
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,6 +26,7 @@ class Aircraft:
         interface: grids that a reduction keeps, beside attachment and monitoring.
         scenario: of the case, with the nodes that carry the lift.
         notices: what the user should know.
+        read: how the file becomes a deck; matrices come with all their digits.
     """
 
     name: str
@@ -33,6 +37,15 @@ class Aircraft:
     scenario: Scenario
     interface: tuple[int, ...] = ()
     notices: tuple[str, ...] = ()
+    read: Callable[[Path], Deck] = read_deck
+
+    def structure(self) -> Structure:
+        """The airframe's finite-element model.
+
+        Raises:
+            InputError: everything that is wrong with its deck.
+        """
+        return Structure.from_deck(self.read(self.deck))
 
     @property
     def attachment_nodes(self) -> tuple[int, ...]:
@@ -70,8 +83,11 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         InputError: the deck is not there, or the built-in model is unknown.
     """
     airframe = case.airframe
+    read = read_deck
     if airframe.model is None:
         deck = airframe.deck
+        if airframe.matrices is not None:
+            deck, read = _matrices_deck(airframe.matrices, out)
         if deck is None or not deck.is_file():
             raise InputError(f"airframe.deck: no such file: {deck}")
         assert case.gears != "d150"  # the case sees to it
@@ -79,6 +95,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             name=deck.stem,
             topology=airframe.topology or "",
             deck=deck,
+            read=read,
             gears=tuple(case.gears),
             monitoring=airframe.monitoring,
             scenario=_with_lift_nodes(case.scenario),
@@ -112,6 +129,25 @@ def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario
             "lift, round the centre of gravity"
         )
     return scenario.model_copy(update={"lift": lift.model_copy(update={"nodes": wing})})
+
+
+def _matrices_deck(
+    matrices: Matrices, out: Path
+) -> tuple[Path, Callable[[Path], Deck]]:
+    """Grids of a user's matrices as `out/airframe.bdf`, and how to read it.
+
+    Raises:
+        InputError: the files do not fit together.
+    """
+    from drake_landing.reduced.as_deck import deck_with_matrices, write_grids_deck
+    from drake_landing.reduced.imported import read_reduced
+
+    roles = ("stiffness", "mass", "damping", "recovery")
+    names = {role: getattr(matrices, role) for role in roles}
+    model = read_reduced(matrices.files, matrices.grids, names)
+    deck = out / "airframe.bdf"
+    write_grids_deck(deck, model)
+    return deck, lambda path: deck_with_matrices(path, model)
 
 
 def write_model_deck(level: str, path: Path) -> str:
