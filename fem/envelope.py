@@ -52,15 +52,14 @@ class Envelope:
 
     def observe(self, chunk: Chunk) -> None:
         """Take the extremes of a chunk; see `Observer`."""
-        values = self._response.values(chunk)
-        for extreme, time, at in (
-            (self.smallest, self.time_of_smallest, values.argmin(axis=0)),
-            (self.largest, self.time_of_largest, values.argmax(axis=0)),
-        ):
-            found = np.take_along_axis(values, at[None], axis=0)[0]
-            better = found < extreme if extreme is self.smallest else found > extreme
-            extreme[better] = found[better]
-            time[better] = chunk.time[at][better]
+        linear = self._response.linear(chunk)
+        for piece in self.table.pieces:
+            values = piece.evaluate(linear)
+            for sign, extreme, when in (
+                (1.0, self.smallest, self.time_of_smallest),
+                (-1.0, self.largest, self.time_of_largest),
+            ):
+                _update(values, sign, extreme, when, piece.place, chunk.time)
 
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
         """Bytes of the extremes."""
@@ -74,3 +73,26 @@ class Envelope:
         group["time_of_min"] = self.time_of_smallest
         group["time_of_max"] = self.time_of_largest
         group.attrs["columns"] = list(self.table.columns)
+
+
+def _update(
+    values: Float64,
+    sign: float,
+    extreme: Float64,
+    when: Float64,
+    place: npt.NDArray[np.intp],
+    time: Float64,
+) -> None:
+    """Smaller (sign 1) or larger (-1) values (m, n, c) go into extremes at places."""
+    found = values.min(axis=0) if sign > 0.0 else values.max(axis=0)
+    known = extreme[place]
+    better = sign * found < sign * known
+    if not better.any():
+        return
+    known[better] = found[better]
+    extreme[place] = known
+    # When it is so is looked up for the new extremes only.
+    at = np.argmin(sign * values[:, better], axis=0)
+    times = when[place]
+    times[better] = time[at]
+    when[place] = times

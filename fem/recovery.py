@@ -9,6 +9,7 @@ Dampers add a second matrix, on velocities; loads on elements between their grid
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,9 @@ from fem.sparse_products import shape_of
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
+
+# Elements that are evaluated at once: histories of their results fit into a cache.
+_PIECE = 256
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,15 +56,31 @@ class ElementTable:
 
     def evaluate(self, linear: Float64) -> Float64:
         """Printed columns (..., e, c) from linear quantities (..., r)."""
-        values, start = [], 0
+        lead = linear.shape[:-1]
+        values = np.empty((*lead, len(self.id), len(self.columns)))
+        for piece in self.pieces:
+            values[..., piece.place, :] = piece.evaluate(linear)
+        return values
+
+    @cached_property
+    def pieces(self) -> tuple["TablePiece", ...]:
+        """The table in groups of elements, the results of which fit into caches."""
+        place = np.empty_like(self.order)
+        place[self.order] = np.arange(len(self.order))
+        pieces, row, first = [], 0, 0
         for part in self.parts:
             elements, quantities, _ = part.matrix.shape
-            stop = start + elements * quantities
-            flat = linear[..., start:stop]
-            shaped = flat.reshape(*linear.shape[:-1], elements, quantities)
-            values.append(part.derive(shaped))
-            start = stop
-        return np.concatenate(values, axis=-2)[..., self.order, :]
+            for start in range(0, elements, _PIECE):
+                stop = min(start + _PIECE, elements)
+                pieces.append(
+                    TablePiece(
+                        recovery=_cut(part, slice(start, stop)),
+                        rows=slice(row + start * quantities, row + stop * quantities),
+                        place=place[first + start : first + stop],
+                    )
+                )
+            row, first = row + elements * quantities, first + elements
+        return tuple(pieces)
 
     def of(self, displacement: Float64) -> Float64:
         """Results (e, c) of displacements (g,), or (t, e, c) of (g, t), at rest.
@@ -71,6 +91,27 @@ class ElementTable:
         if self.of_loads is not None:
             linear = linear + self.of_loads.sum(axis=1)
         return self.evaluate(linear)
+
+
+@dataclass(frozen=True, kw_only=True)
+class TablePiece:
+    """Some elements of a table.
+
+    Attributes:
+        recovery: theirs.
+        rows: their linear quantities among those of the table.
+        place: (n,) their positions in the table's `id`.
+    """
+
+    recovery: Recovery
+    rows: slice
+    place: npt.NDArray[np.intp]
+
+    def evaluate(self, linear: Float64) -> Float64:
+        """Printed columns (..., n, c) from linear quantities (..., r) of the table."""
+        own = linear[..., self.rows]
+        shape = (len(self.place), self.recovery.matrix.shape[1])
+        return self.recovery.derive(own.reshape(*linear.shape[:-1], *shape))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,7 +155,7 @@ def element_tables(
         keep = np.full(len(recovery.id), True)
         if selection != "ALL":
             keep = np.isin(recovery.id, np.fromiter(selection, np.int64))
-            recovery = _chosen(recovery, keep)
+            recovery = _cut(recovery, keep)
         if not len(recovery.id):
             continue
         key = (recovery.table, recovery.columns)
@@ -239,12 +280,12 @@ def _below(arrays: Sequence[Float64 | None], parts: Sequence[_Part]) -> Float64 
     )
 
 
-def _chosen(recovery: Recovery, keep: npt.NDArray[np.bool_]) -> Recovery:
+def _cut(recovery: Recovery, keep: npt.NDArray[np.bool_] | slice) -> Recovery:
     """A recovery with some of its elements; arrays of elements are cut alike."""
     changes: dict[str, object] = {}
     for field in fields(recovery):
         value = getattr(recovery, field.name)
-        if isinstance(value, np.ndarray) and value.shape[:1] == keep.shape:
+        if isinstance(value, np.ndarray) and value.shape[:1] == recovery.id.shape:
             changes[field.name] = value[keep]
     return replace(recovery, **changes)
 

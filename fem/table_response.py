@@ -38,6 +38,10 @@ class TableResponse:
 
     def values(self, chunk: Chunk) -> Float64:
         """(m, e, c) results at the times of a chunk."""
+        return self.table.evaluate(self.linear(chunk))
+
+    def linear(self, chunk: Chunk) -> Float64:
+        """(m, r) linear quantities at the times of a chunk."""
         linear = chunk.get("displacement", self._operator)[:, self._case]
         if self._rate is not None:
             linear = linear + chunk.get("velocity", self._rate)[:, self._case]
@@ -45,4 +49,4 @@ class TableResponse:
             factors = self._factors(chunk.time)
             case = self._case if len(factors) > 1 else 0
             linear = linear + (self.table.of_loads @ factors[case]).T
-        return self.table.evaluate(linear)
+        return linear
