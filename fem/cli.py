@@ -76,12 +76,20 @@ def run(
             "ends (Nastran's tables leave it out)."
         ),
     ] = True,
+    op2: Annotated[
+        bool | None,
+        typer.Option(help="OP2 file; by default where PARAM POST is negative."),
+    ] = None,
+    paraview: Annotated[
+        bool, typer.Option("--paraview", help="ParaView files (VTKHDF).")
+    ] = False,
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads of the sparse solver.")
     ] = None,
 ) -> None:
     """Solve a Nastran deck's own case control and write DIR/<deck>.h5."""
     from fem.deck.reader import read_deck
+    from fem.export import export, wants_op2
     from fem.solution import Options, run_deck
 
     console = RichConsole()
@@ -92,7 +100,9 @@ def run(
         options = Options(
             threads=threads, envelope=envelope, bar_loads=bar_loads, console=console
         )
-        run_deck(model, folder / f"{deck.stem}.h5", options)
+        results = run_deck(model, folder / f"{deck.stem}.h5", options)
+        wanted = wants_op2(model) if op2 is None else op2
+        export(results, model, op2=wanted, paraview=paraview, say=console.say)
     finally:
         console.close()
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import fem
+from fem.cli import _status
 from fem.op2 import write_op2
 
 DECK = """\
@@ -259,3 +260,19 @@ def test_the_same_tables_as_nx_wrote(written, references):
             )
             compared += 1
     assert compared >= 13
+
+
+def test_command_line_writes_what_is_asked_for(tmp_path):
+    """PARAM,POST,-1 asks for OP2; --no-op2 and --paraview from the command line."""
+    path = tmp_path / "model.bdf"
+    path.write_text(DECK.format(sol=101, case=CASES[101]))
+    assert _status([str(path), "--out", str(tmp_path / "a")]) == 0
+    assert {p.name for p in (tmp_path / "a").iterdir()} == {"model.h5", "model.op2"}
+    assert sorted(read(tmp_path / "a" / "model.op2").displacements) == [3, 7]
+    options = ["--out", str(tmp_path / "b"), "--no-op2", "--paraview"]
+    assert _status([str(path), *options]) == 0
+    assert {p.name for p in (tmp_path / "b").iterdir()} == {
+        "model.h5",
+        "model_static_3.vtkhdf",
+        "model_static_7.vtkhdf",
+    }
