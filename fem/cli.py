@@ -8,6 +8,7 @@ import sys
 import traceback
 from collections.abc import Callable
 from pathlib import Path
+from time import perf_counter
 from typing import Annotated
 
 import typer
@@ -30,11 +31,11 @@ class RichConsole:
         self._terminal.print(text, markup=False, soft_wrap=True)
 
     def progress(self, task: str) -> Callable[[int, int], None]:
-        """A bar with the remaining time; plain output shows the start only."""
+        """A bar with the remaining time; plain lines where there is no terminal."""
         self.close()
         if not self._terminal.is_terminal:
             self._terminal.print(f"{task} ...", markup=False)
-            return lambda done, total: None
+            return PlainProgress(task, self.say)
         columns = (*Progress.get_default_columns(), TextColumn("{task.completed:.0f}"))
         bar = Progress(*columns, console=self._terminal, transient=True)
         self._progress = bar
@@ -53,6 +54,49 @@ class RichConsole:
         if self._progress is not None:
             self._progress.stop()
             self._progress = None
+
+
+class PlainProgress:
+    """Lines on progress with the remaining time, the first after a while.
+
+    Args:
+        task: what goes on.
+        say: receives the lines.
+        clock: seconds.
+    """
+
+    def __init__(
+        self,
+        task: str,
+        say: Callable[[str], None],
+        clock: Callable[[], float] = perf_counter,
+    ) -> None:
+        self._task, self._say, self._clock = task, say, clock
+        self._start: tuple[float, int] | None = None
+        self._next = _QUIET_SECONDS
+
+    def __call__(self, done: int, total: int) -> None:
+        """Say something where the time has come."""
+        now = self._clock()
+        if self._start is None:
+            self._start = (now, done)
+            return
+        begun, first = self._start
+        if now - begun < self._next or done >= total or done <= first:
+            return
+        self._next = 2.0 * (now - begun) if self._next < 60.0 else self._next + 60.0
+        left = (now - begun) / (done - first) * (total - done)
+        self._say(f"{self._task}: {done} of {total}, {_duration(left)} left")
+
+
+# Nobody waits for a line within the first seconds.
+_QUIET_SECONDS = 10.0
+
+
+def _duration(seconds: float) -> str:
+    """ "45 s" or "3 min 20 s"."""
+    minutes, rest = divmod(round(seconds), 60)
+    return f"{minutes} min {rest} s" if minutes else f"{rest} s"
 
 
 @app.command()
@@ -83,6 +127,9 @@ def run(
     paraview: Annotated[
         bool, typer.Option("--paraview", help="ParaView files (VTKHDF).")
     ] = False,
+    quality: Annotated[
+        bool, typer.Option("--quality", help="Print the worst shapes of elements.")
+    ] = False,
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads of the sparse solver.")
     ] = None,
@@ -98,7 +145,11 @@ def run(
         model = read_deck(deck, ignore=names)
         folder = out if out is not None else Path("out") / deck.stem
         options = Options(
-            threads=threads, envelope=envelope, bar_loads=bar_loads, console=console
+            threads=threads,
+            envelope=envelope,
+            bar_loads=bar_loads,
+            quality=quality,
+            console=console,
         )
         results = run_deck(model, folder / f"{deck.stem}.h5", options)
         wanted = wants_op2(model) if op2 is None else op2

@@ -13,6 +13,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
+from fem.constraints.autospc import grouped
 from fem.linear_solver import SingularMatrixError, SolverName, factorize
 
 Float64 = npt.NDArray[np.float64]
@@ -34,11 +35,13 @@ class Mechanism:
         rows: (k,) rows that move, ascending.
         motions: (n, r) independent motions, largest entry 1.
         whole: whether every row of the piece moves.
+        everything: whether the piece is the whole structure.
     """
 
     rows: Int64
     motions: Float64
     whole: bool
+    everything: bool = False
 
 
 def find_mechanisms(
@@ -71,7 +74,8 @@ def find_mechanisms(
         part = _independent(part[:, np.abs(part).max(axis=0) > _MOVES])
         rows = np.flatnonzero((np.abs(part) > _MOVES).any(axis=1))
         if len(rows):
-            found.append(Mechanism(rows, part, len(rows) == int(inside.sum())))
+            whole = len(rows) == int(inside.sum())
+            found.append(Mechanism(rows, part, whole, len(rows) == len(motions)))
     return found
 
 
@@ -144,7 +148,11 @@ def _smallest(
 
 
 def describe(
-    mechanisms: list[Mechanism], label: Callable[[int], str], *, most: int = 12
+    mechanisms: list[Mechanism],
+    label: Callable[[int], str],
+    *,
+    most: int = 12,
+    dynamic: bool = False,
 ) -> list[str]:
     """Lines that say how many motions there are, and what moves.
 
@@ -152,36 +160,29 @@ def describe(
         mechanisms: from `find_mechanisms`.
         label: name of a row, "grid 12 T3".
         most: grids or scalar points per line.
+        dynamic: the motions have no mass either.
     """
+    lacking = "stiffness and mass" if dynamic else "stiffness"
     loose = [int(m.rows[0]) for m in mechanisms if m.whole and len(m.rows) == 1]
     lines = []
     if loose:
-        names = _grouped([label(row) for row in loose], most)
-        lines.append(f"{len(loose)} freedoms without any stiffness: {names}")
+        names = grouped([label(row) for row in loose], most)
+        lines.append(f"{len(loose)} freedoms without any {lacking}: {names}")
     for mechanism in mechanisms:
         if mechanism.whole and len(mechanism.rows) == 1:
             continue
         count = mechanism.motions.shape[1]
         what = "motion" if count == 1 else "motions"
-        where = (
-            "an unconnected piece, or the whole structure"
-            if mechanism.whole
-            else f"{len(mechanism.rows)} freedoms"
+        where = f"{len(mechanism.rows)} freedoms"
+        if mechanism.everything:
+            where = "the whole structure"
+        elif mechanism.whole:
+            where = "a piece that nothing connects or holds"
+        names = grouped([label(int(row)) for row in mechanism.rows], most)
+        lines.append(f"{count} {what} without {lacking} of {where}: {names}")
+    if not dynamic and any(m.everything for m in mechanisms):
+        lines.append(
+            "hold the structure by SPC; a free one may be balanced by its inertia with "
+            "PARAM,INREL,-2"
         )
-        names = _grouped([label(int(row)) for row in mechanism.rows], most)
-        lines.append(f"{count} {what} without stiffness of {where}: {names}")
     return lines
-
-
-def _grouped(names: list[str], most: int) -> str:
-    """ "grid 4 T1 T2, grid 5 T1" from labels of single freedoms."""
-    points: dict[str, list[str]] = {}
-    for name in names:
-        head, _, component = name.rpartition(" ")
-        if head in ("", "scalar point"):
-            points[name] = []
-        else:
-            points.setdefault(head, []).append(component)
-    shown = [" ".join([point, *parts]) for point, parts in points.items()]
-    more = f", ... ({len(shown)} points)" if len(shown) > most else ""
-    return ", ".join(shown[:most]) + more

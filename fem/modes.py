@@ -90,7 +90,10 @@ def normal_modes(
         raise ValueError(f"count of modes is {count}, expected at least 1")
     k, m = sp.csr_matrix(stiffness, dtype=float), sp.csr_matrix(mass, dtype=float)
     if not np.any(m.diagonal() > 0.0):
-        raise ModesError("the structure has no mass: there are no modes")
+        raise ModesError(
+            "the structure has no mass and therefore no modes; expected densities "
+            "(RHO), NSM, CONM2 or CMASS"
+        )
     problem = EigenProblem(k, m, solver, progress or (lambda done, wanted: None))
     limits = (
         -np.inf if low is None or low <= 0.0 else (2.0 * np.pi * low) ** 2,

@@ -65,6 +65,28 @@ class ResultFile:
         self.file["mass/inertia"] = weight.inertia
         self.file.attrs["deck"] = str(structure.deck.path.name)
         self.file.attrs["notices"] = list(structure.notices)
+        self.file.attrs["ignored_cards"] = list(structure.deck.ignored)
+        found = structure.autospc
+        if found is not None and len(found.dof):
+            labels = [points.label(int(dof)) for dof in found.dof]
+            self.file["autospc/freedom"] = np.array(labels, h5py.string_dtype())
+            self.file["autospc/stiffness_ratio"] = found.ratio
+        for name, column in structure.quality.items():
+            values = column.to_numpy()
+            if values.dtype == object:
+                values = values.astype(h5py.string_dtype())
+            self.file[f"quality/{name}"] = values
+
+    def size_bytes(self) -> int:
+        """Size of all datasets, those that are still to be filled included."""
+        sizes: list[int] = []
+
+        def count(_: str, item: object) -> None:
+            if isinstance(item, h5py.Dataset):
+                sizes.append(item.size * item.dtype.itemsize)
+
+        self.file.visititems(count)
+        return sum(sizes)
 
     def write(self, name: str, values: npt.ArrayLike) -> None:
         """A dataset; groups on the way are made."""

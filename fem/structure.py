@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+import pandas as pd
 import scipy.sparse as sp
 
 from fem.assembly import Matrices, assemble
@@ -23,9 +24,11 @@ from fem.damping import Damping
 from fem.direct_input import read_direct
 from fem.elements.registry import element_notices, read_elements
 from fem.errors import InputError
+from fem.linear_solver import SingularMatrixError
 from fem.mechanisms import describe, find_mechanisms
+from fem.pieces import describe_pieces, unconnected_pieces
 from fem.points import Points
-from fem.quality import quality_notices
+from fem.quality import quality_notices, quality_table
 from fem.weight import Weight, rigid_modes, weigh
 
 if TYPE_CHECKING:
@@ -304,15 +307,22 @@ class Structure:
             *self.deck.notices,
             *element_notices(self.deck),
             *quality_notices(self.blocks),
+            *describe_pieces(self.pieces),
         ]
         if self.autospc is not None and len(self.autospc.dof):
-            names = self.autospc.lines(self.points)
-            lines.append(
-                f"AUTOSPC constrained {len(names)} freedoms without stiffness: "
-                + "; ".join(names[:6])
-                + (f"; ... ({len(names)} in all)" if len(names) > 6 else "")
-            )
+            lines.append(f"AUTOSPC constrained {self.autospc.summary(self.points)}")
         return lines
+
+    @cached_property
+    def quality(self) -> pd.DataFrame:
+        """Worst shapes of surface and solid elements, see `quality_table`."""
+        return quality_table(self.blocks)
+
+    @cached_property
+    def pieces(self) -> list[Int64]:
+        """Points of each piece of the model that nothing connects to the others."""
+        e = self.elimination
+        return unconnected_pieces(self.points, self.blocks, e.dependence, e.m)
 
     @cached_property
     def damping_notices(self) -> list[str]:
@@ -321,14 +331,15 @@ class Structure:
         g = _number(self.deck, "G")
         if g != 0.0 and _number(self.deck, "W3") == 0.0:
             lines.append(
-                f"PARAM,G,{g:g} has no effect in a transient because PARAM,W3 is 0 or "
-                "absent; give PARAM,W3 (rad/s) to make it the viscous damping G/W3 K"
+                f"the damping PARAM,G,{g:g} is inactive: a transient uses it only with "
+                "PARAM,W3; give W3, the circular frequency (rad/s) at which it is to "
+                "hold, and it becomes the viscous damping (G/W3) K"
             )
         if self.matrices.structural_damping.nnz and _number(self.deck, "W4") == 0.0:
             lines.append(
-                "element damping (GE) has no effect in a transient because PARAM,W4 is "
-                "0 or absent; give PARAM,W4 (rad/s) to make it the viscous damping "
-                "GE/W4 K"
+                "the damping of elements and materials (GE) is inactive: a transient "
+                "uses it only with PARAM,W4; give W4, the circular frequency (rad/s) "
+                "at which it is to hold, and it becomes the viscous damping (GE/W4) K"
             )
         return lines
 
@@ -352,7 +363,7 @@ class Structure:
             mass=self.mass if dynamic else None,
             point=np.where(f < grids, f // 6, f),
         )
-        return describe(mechanisms, self.label)
+        return describe(mechanisms, self.label, dynamic=dynamic)
 
     def guarded(
         self,
@@ -371,6 +382,8 @@ class Structure:
         except error as caught:
             lines = self.singular_message(dynamic=dynamic)
             if not lines:
+                if not isinstance(caught, SingularMatrixError):
+                    raise InputError(f"{self.deck.path}: {caught}") from None
                 row = getattr(caught, "row", None)
                 at = "" if row is None else f" at {self.label(row)}"
                 lines = [f"the stiffness is not positive definite{at}: {caught}"]

@@ -208,6 +208,7 @@ class _Run:
         working = 8 * size * self.cases * vectors
         self.inform(
             f"direct transient: {self.total} steps, {size} freedoms, {self.cases} load "
-            f"case(s); factor {factor.memory_bytes / 1e6:.0f} MB, working vectors "
+            f"case{'s' if self.cases > 1 else ''}; memory: factor "
+            f"{factor.memory_bytes / 1e6:.0f} MB, working vectors "
             f"{working / 1e6:.0f} MB, histories {kept / 1e6:.0f} MB"
         )

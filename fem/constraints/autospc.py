@@ -7,6 +7,7 @@ constrained, as Nastran does. This finds the drilling freedom of shells in any f
 and trusses' rotations, but no mechanism of several grids.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -37,6 +38,34 @@ class Singularities:
             f"{points.label(int(d))}: stiffness ratio {r:.3g}"
             for d, r in zip(self.dof, self.ratio)
         ]
+
+    def summary(self, points: Points, *, most: int = 8) -> str:
+        """ "8 freedoms without stiffness: grid 4 R1 R3, grid 5 R1, ..."."""
+        shown = grouped([points.label(int(d)) for d in self.dof], most)
+        count = len(self.dof)
+        weak = self.ratio[self.ratio > 0.0]
+        soft = f" (stiffness ratio up to {weak.max():.2g})" if len(weak) else ""
+        plural = "freedom" if count == 1 else "freedoms"
+        return f"{count} {plural} without stiffness{soft}: {shown}"
+
+
+def grouped(names: Sequence[str], most: int) -> str:
+    """ "grid 4 T1 T2, grid 5 T1" from labels of single freedoms.
+
+    Args:
+        names: labels such as "grid 4 T1" or "scalar point 7".
+        most: points that are listed.
+    """
+    points: dict[str, list[str]] = {}
+    for name in names:
+        head, _, component = name.rpartition(" ")
+        if head in ("", "scalar point"):
+            points[name] = []
+        else:
+            points.setdefault(head, []).append(component)
+    shown = [" ".join([point, *parts]) for point, parts in points.items()]
+    more = f", ... ({len(shown)} points)" if len(shown) > most else ""
+    return ", ".join(shown[:most]) + more
 
 
 def find_singularities(

@@ -109,6 +109,11 @@ _REFUSED = frozenset(
     REPCASE TEMPERATURE TEMP TFL TRIM TSTRU TSTEPNL A2GG
     """.split()
 )
+# (Initial temperatures alone change nothing: materials are constant.)
+_WHY = {
+    "TEMP": ": no thermal loads, no materials that depend on temperature; "
+    "--ignore CASE goes on without such commands"
+}
 _COMMAND = re.compile(r"\s*([A-Z0-9]+)\s*(\([^)]*\))?\s*[=,]?\s*(.*)$", re.S)
 
 
@@ -170,8 +175,8 @@ def read_case_control(lines: Iterable[Line], *, refuse: bool = True) -> CaseCont
                 current.outputs[key] = _selection(value, sets)
                 words = (options or "()")[1:-1].split(",")
                 current.options[key] = tuple(w.strip() for w in words if w.strip())
-            elif name in _REFUSED and refuse:
-                raise ValueError(f"{name} is not supported")
+            elif name in _REFUSED and refuse and not _initial(name, options):
+                raise ValueError(f"{name} is not supported{_WHY.get(name[:4], '')}")
             else:
                 ignored.append(name)
         except ValueError as error:
@@ -187,6 +192,11 @@ def read_case_control(lines: Iterable[Line], *, refuse: bool = True) -> CaseCont
         )
     result.subcases = tuple(subcases) or (default,)
     return result
+
+
+def _initial(name: str, options: str | None) -> bool:
+    """TEMPERATURE(INITIAL), which only matters together with thermal loads."""
+    return name.startswith("TEMP") and (options or "").startswith("(INIT")
 
 
 def _statements(lines: Iterable[Line]) -> Iterable[tuple[str, Line]]:

@@ -13,6 +13,28 @@ WITHOUT_EFFECT = frozenset(
     """.split()
 )
 
+# Why cards are not supported, by the beginning of their names.
+_REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
+    (
+        ("MATT", "TABLEST"),
+        "materials do not depend on temperature here; without it, the constants of "
+        "the MAT card hold",
+    ),
+    (("MATS", "CREEP", "MATHP", "PLPLANE", "PLSOLID"), "materials are linear here"),
+    (("PELAST", "PDAMPT", "PBUSHT"), "springs and dampers are linear here"),
+    (("NLRGAP", "NOLIN", "CGAP", "BCTABLE", "BCONP", "BSURF"), "no contact here"),
+    (("CAERO", "AERO", "AESURF", "SPLINE", "PAERO"), "no aerodynamics here"),
+)
+
+
+def reason(name: str) -> str:
+    """Why a card is not supported, as a clause, or the empty string."""
+    for beginnings, text in _REASONS:
+        if name.startswith(beginnings):
+            return f": {text}"
+    return ""
+
+
 # Property cards that are harmless once their elements are passed over.
 PROPERTY_OF: dict[str, str] = {
     "CBEND": "PBEND",

@@ -24,6 +24,8 @@ class Deck:
         sol: number of the solution sequence, 0 where the deck does not say.
         executive: executive control statements.
         notices: what was ignored, replaced or understood, for the user to read.
+        ignored: names of unsupported cards that the user wanted left out, and that
+            the deck has.
         superelements: bulk data of BEGIN SUPER=n sections by n.
     """
 
@@ -34,6 +36,7 @@ class Deck:
     sol: int = 0
     executive: tuple[str, ...] = ()
     notices: tuple[str, ...] = ()
+    ignored: tuple[str, ...] = ()
     superelements: "Mapping[int, Deck]" = field(default_factory=dict)
 
     def param(self, name: str) -> Value:

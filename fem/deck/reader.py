@@ -18,7 +18,7 @@ from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
 
 from fem.deck.cards.from_pynastran import EXTRACTORS
 from fem.deck.case_control import CaseControl, read_case_control
-from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT
+from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import check, check_selected
 from fem.deck.cleanup import clean
 from fem.deck.deck import Deck
@@ -27,9 +27,9 @@ from fem.deck.lexer import Bulk, RawCard, read_cards
 from fem.deck.parameters import read_parameters
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
-from fem.deck.tables import RowReader, make_tables, supported
+from fem.deck.tables import RowReader, layouts_and_lists, make_tables, supported
 from fem.deck.values import Malformed
-from fem.errors import InputError
+from fem.errors import InputError, nearest
 
 _CLASSES: dict[str, Any] = {
     "PBEAM": PBEAM,
@@ -62,6 +62,7 @@ def _external(name: str) -> Callable[[RawCard], list[dict[str, Any]]]:
 
 
 EXTERNAL: dict[str, RowReader] = {name: _external(name) for name in _CLASSES}
+SUPPORTED: tuple[str, ...] = tuple(sorted({*layouts_and_lists(), *EXTERNAL, "PARAM"}))
 
 
 def read_deck(
@@ -107,6 +108,7 @@ def read_deck(
         sol=executive.sol,
         executive=executive.statements,
         notices=tuple(dict.fromkeys(notices)),
+        ignored=deck.ignored,
         superelements=parts,
     )
 
@@ -128,7 +130,13 @@ def _deck(
     params = read_parameters(groups.pop("PARAM", []), case.params, problems, notices)
     ignored = _set_aside(groups, ignore, problems, notices)
     tables = make_tables(groups, EXTERNAL, problems, notices)
-    deck = Deck(path=path, cards=tables, params=params, case_control=case.subcases)
+    deck = Deck(
+        path=path,
+        cards=tables,
+        params=params,
+        case_control=case.subcases,
+        ignored=tuple(dict.fromkeys(card.name for card in ignored)),
+    )
     if not problems:
         clean(tables, ignored, notices)
         problems += check(deck)
@@ -147,6 +155,9 @@ def _set_aside(
         Those that the user wants ignored.
     """
     ignore = {*ignore, *(PROPERTY_OF[name] for name in ignore if name in PROPERTY_OF)}
+    absent = sorted(ignore - groups.keys() - set(PROPERTY_OF.values()) - {"CASE"})
+    if absent:
+        notices.append(f"to be ignored, but not in the deck: {', '.join(absent)}")
     unused: list[str] = []
     ignored: list[RawCard] = []
     unsupported: list[str] = []
@@ -161,7 +172,10 @@ def _set_aside(
                 unused.append(f"{name} ({len(cards)})")
             else:
                 unsupported.append(name)
-                problems.append(f"{_lines(name, cards)} not supported")
+                problems.append(
+                    f"{_lines(name, cards)} not supported{reason(name)}"
+                    f"{nearest(name, SUPPORTED) if not reason(name) else ''}"
+                )
     if unused:
         notices.append(f"cards without effect here: {', '.join(unused)}")
     if unsupported:

@@ -37,6 +37,11 @@ def supported(name: str, external: Mapping[str, Any]) -> bool:
     return name in LAYOUTS or name in _LISTS or name in external or name == "DMIG"
 
 
+def layouts_and_lists() -> list[str]:
+    """Names of the cards that are read without pyNastran's help."""
+    return sorted({*LAYOUTS, *_LISTS, "DMIG"})
+
+
 def make_tables(
     cards: Mapping[str, Sequence[RawCard]],
     external: Mapping[str, RowReader],

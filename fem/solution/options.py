@@ -41,6 +41,7 @@ class Options:
         bar_loads: results of bars and beams in transients include what PLOAD1 does
             between their ends, as they do in statics. Nastran's include it at the
             stations of CBARAO only; without, its other tables are met.
+        quality: print the worst shapes of elements as a table.
         console: who is told.
     """
 
@@ -48,6 +49,7 @@ class Options:
     threads: int | None = None
     envelope: bool = False
     bar_loads: bool = True
+    quality: bool = False
     console: Console = field(default_factory=Quiet)
 
 

@@ -1,11 +1,14 @@
 """What a subcase asks for, in the terms of the recovery."""
 
+from collections.abc import Sequence
+
 import numpy as np
 import numpy.typing as npt
 
 from fem.deck.case_control import Selection, Subcase
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
+from fem.errors import InputError
 
 ELEMENT_RESULTS: tuple[tuple[str, Kind], ...] = (
     ("FORCE", "force"),
@@ -41,3 +44,44 @@ def ids_of(selection: Selection) -> npt.NDArray[np.int64] | None:
     if isinstance(selection, str):
         return None if selection == "ALL" else np.zeros(0, np.int64)
     return np.fromiter(selection, np.int64)
+
+
+def check_requests(deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]) -> None:
+    """Refuse subcases that lack what their solution needs, before anything is computed.
+
+    Args:
+        deck: the deck.
+        work: solutions with their subcases.
+
+    Raises:
+        InputError: each thing that is missing, with what the deck has to offer.
+    """
+    problems = []
+    for number, subcases in work:
+        for subcase in subcases:
+            for command, cards, why in _NEEDED.get(number, ()):
+                if not getattr(subcase, command.lower()):
+                    known = sorted(
+                        {int(i) for card in cards for i in deck.cards[card]["sid"]}
+                    )
+                    offer = (
+                        f"expected {command} = {' or '.join(map(str, known[:8]))}"
+                        if known
+                        else f"and the deck has no {' or '.join(cards)} card"
+                    )
+                    problems.append(
+                        f"{deck.path}: subcase {subcase.id}: SOL {number} needs "
+                        f"{command} in the case control ({why}); {offer}"
+                    )
+    if problems:
+        raise InputError(problems)
+
+
+_NEEDED = {
+    103: (("METHOD", ("EIGRL",), "which modes"),),
+    109: (("TSTEP", ("TSTEP",), "the time steps"),),
+    112: (
+        ("METHOD", ("EIGRL",), "which modes"),
+        ("TSTEP", ("TSTEP",), "the time steps"),
+    ),
+}

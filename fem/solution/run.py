@@ -4,12 +4,15 @@ from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
 
+import numpy as np
+
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
 from fem.results import ResultFile
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
+from fem.solution.requests import check_requests
 from fem.solution.static import solve_statics
 from fem.solution.transient import solve_transients
 from fem.structure import Structure
@@ -43,6 +46,7 @@ def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
     options = options or Options()
     start = perf_counter()
     work = _by_solution(deck)
+    check_requests(deck, work)
     structure = Structure(deck, work[0][1][0])
     with ResultFile(path) as results:
         _introduce(structure, options)
@@ -87,7 +91,8 @@ def _say_what_is_left_out(
         for quantity, selection in subcase.outputs.items()
         if selection != "NONE"
     }
-    missing = sorted(asked - WRITTEN[number])
+    # Modes have no loads: nothing is missed.
+    missing = sorted(asked - WRITTEN[number] - {"OLOAD"})
     if missing:
         options.console.say(
             f"notice: output not written in SOL {number}: {', '.join(missing)}"
@@ -107,6 +112,8 @@ def _introduce(structure: Structure, options: Options) -> None:
     )
     x, y, z = weight.center
     i = weight.inertia
+    # Rounding of products that cancel is no information.
+    i = np.where(np.abs(i) > 1e-12 * np.abs(i).max(initial=0.0), i, 0.0)
     console.say(
         f"mass {weight.total:.7g}, centre of gravity {x:.7g} {y:.7g} {z:.7g}, inertia "
         f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
@@ -114,3 +121,5 @@ def _introduce(structure: Structure, options: Options) -> None:
     )
     for notice in structure.notices:
         console.say(f"notice: {notice}")
+    if options.quality and not structure.quality.empty:
+        console.say(structure.quality.to_string(index=False, float_format="%.4g"))

@@ -40,10 +40,26 @@ def solve_statics(
         u_g, residual = _solve(model, load, eliminations, options)
         for i, subcase in enumerate(group):
             _write(model, subcase, u_g[:, i], residual[:, i], load[:, i], results)
-            largest = np.abs(u_g[:, i]).max(initial=0.0)
-            options.console.say(
-                f"statics, subcase {subcase.id}: largest displacement {largest:.7g}"
-            )
+            options.console.say(_summary(model, subcase, u_g[:, i], residual[:, i]))
+
+
+def _summary(
+    model: Structure, subcase: Subcase, u_g: Float64, residual: Float64
+) -> str:
+    """Largest translation with its place, sum of the forces of constraint."""
+    grids = 6 * len(model.points.grid_id)
+    moved = u_g[:grids].reshape(-1, 6)[:, :3].ravel()
+    text = f"statics, subcase {subcase.id}: "
+    if len(moved):
+        at = int(np.argmax(np.abs(moved)))
+        place = model.points.label(6 * (at // 3) + at % 3)
+        text += f"largest displacement {moved[at]:.7g} at {place}, "
+    force = model.elimination.spc_force(residual)
+    basic = (model.points.basic_rotation() @ force)[:grids].reshape(-1, 6)
+    # What is left of forces that cancel is rounding.
+    total, size = basic[:, :3].sum(axis=0), np.abs(basic[:, :3]).sum(axis=0).max()
+    x, y, z = np.where(np.abs(total) > 1e-9 * size, total, 0.0)
+    return text + f"sum of SPC forces {x:.7g} {y:.7g} {z:.7g}"
 
 
 def _with_same_support(subcases: Iterable[Subcase]) -> Iterator[list[Subcase]]:

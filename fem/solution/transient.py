@@ -103,7 +103,9 @@ def _direct(
             solver=options.solver,
             threads=options.threads,
             progress=options.console.progress("direct transient"),
-            inform=options.console.say,
+            inform=lambda text: options.console.say(
+                f"{text}, result file {results.size_bytes() / 1e6:.0f} MB"
+            ),
         ).time
 
     time = model.guarded(run, dynamic=True, error=SingularMatrixError)

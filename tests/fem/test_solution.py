@@ -379,7 +379,7 @@ def test_mass_properties_are_written(run):
         (105, "SPC=1", "", "SOL 105"),
         (101, "SPC=1", "", "selects no LOAD"),
         (101, "LOAD=10", "", "singular"),
-        (103, "SPC=1", "", "METHOD = nothing"),
+        (103, "SPC=1", "", "SOL 103 needs METHOD"),
         (109, "SPC=1\nDLOAD=30", "", "TSTEP"),
         (109, "SPC=1\nTSTEP=50", "", "neither DLOAD nor IC"),
         (101, "LOAD=10", "PARAM,INREL,-1", "SUPORT"),

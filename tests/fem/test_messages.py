@@ -1,0 +1,115 @@
+"""What a run says: AUTOSPC, pieces, mechanisms, ignored cards, shapes, progress."""
+
+import h5py
+import pytest
+
+from fem.cli import PlainProgress, _status
+
+BAR = (
+    "MAT1,1,7.+10,,.3,2700.,,,.02\nPBAR,1,1,1.-3,1.-6,1.-6,2.-6\nGRID,1\nGRID,2,,1.\n"
+    "GRID,3,,2.\nCBAR,1,1,1,2,0.,1.,0.\nCBAR,2,1,2,3,0.,1.,0.\nSPC1,1,123456,1\n"
+    "FORCE,1,3,,10.,0.,0.,1.\n"
+)
+OTHER = "GRID,14,,3.\nGRID,15,,4.\nCBAR,3,1,14,15,0.,1.,0.\n"
+INERTIA = "EIGRL,1,,,3\nCONM2,9,14,,1.,,,,\n,1.,,1.,,,1.\n"
+STEP = "TSTEP,4,10,.001\nTLOAD1,1,1,,,2\nTABLED1,2\n,0.,0.,1.,1.,ENDT\n"
+
+
+@pytest.fixture
+def say(tmp_path, capsys):
+    """Function from solution, case control, bulk and options to status and text."""
+
+    def go(sol, case, bulk, *options):
+        path = tmp_path / "model.bdf"
+        path.write_text(f"SOL {sol}\nCEND\n{case}\nBEGIN BULK\n{bulk}ENDDATA\n")
+        status = _status([str(path), "--out", str(tmp_path), *options])
+        captured = capsys.readouterr()
+        assert "Traceback" not in captured.err
+        return status, captured.out + captured.err
+
+    return go
+
+
+@pytest.mark.parametrize(
+    ("sol", "case", "bulk", "words"),
+    [
+        (101, "LOAD=1", BAR, "6 motions without stiffness of the whole structure"),
+        (101, "LOAD=1", BAR, "PARAM,INREL,-2"),
+        (101, "LOAD=1\nSPC=1", BAR + OTHER, "nothing connects or holds: grid 14 T1"),
+        (
+            101,
+            "LOAD=1\nSPC=1",
+            BAR + "GRID,4,,3.\nCBAR,3,1,3,4,0.,1.,0.\n,456\n",
+            "2 motions without stiffness of 4 freedoms: grid 4 T2 T3 R2 R3",
+        ),
+        (109, "SPC=1\nDLOAD=1", BAR + STEP, "needs TSTEP in the case control"),
+        (112, "SPC=1\nDLOAD=1\nTSTEP=4", BAR + STEP, "SOL 112 needs METHOD"),
+        (103, "SPC=1\nMETHOD=1", BAR.replace("2700.", "") + "EIGRL,1,,,3\n", "no mass"),
+        (101, "LOAD=1\nTEMP(LOAD)=3", BAR, "no thermal loads"),
+        (101, "LOAD=1", BAR + "MATT1,1,7\n", "do not depend on temperature"),
+        (101, "LOAD=1", BAR + "CBARR,1,7\n", "did you mean 'CBAR'?"),
+    ],
+)
+def test_what_cannot_be_solved_is_named(say, sol, case, bulk, words):
+    status, text = say(sol, case, bulk)
+    assert status == 2
+    assert words in text
+
+
+@pytest.mark.parametrize(
+    ("sol", "case", "bulk", "words"),
+    [
+        (103, "METHOD=1\nSPC=1", BAR + OTHER + INERTIA,
+         "2 pieces that nothing connects; apart from the largest (3 points): "
+         "points 14 15"),
+        (101, "LOAD=1\nSPC=1", BAR + "GRID,9\n",
+         "AUTOSPC constrained 6 freedoms without stiffness: grid 9 T1 T2 T3 R1 R2 R3"),
+        (101, "LOAD=1\nSPC=1\nTEMP(INIT)=3", BAR, "sum of SPC forces 0 0 -10"),
+        (109, "DLOAD=1\nSPC=1\nTSTEP=4", "PARAM,G,.04\n" + BAR + STEP,
+         "PARAM,G,0.04 is inactive: a transient uses it only with PARAM,W3; give W3"),
+        (109, "DLOAD=1\nSPC=1\nTSTEP=4", BAR + STEP,
+         "(GE) is inactive: a transient uses it only with PARAM,W4; give W4"),
+        (109, "DLOAD=1\nSPC=1\nTSTEP=4", BAR + STEP, "memory: factor"),
+    ],
+)  # fmt: skip
+def test_what_a_user_should_know_is_said(say, sol, case, bulk, words):
+    status, text = say(sol, case, bulk)
+    assert status == 0, text
+    assert words in text
+
+
+def test_ignored_cards_are_recorded(say, tmp_path):
+    bulk = BAR + "CBEND,33,14,1,2,5.,5.,0.,1\nPBEND,14,1,1.,1.,1.,1.\nGRID,9\n"
+    status, text = say(101, "LOAD=1\nSPC=1", bulk)
+    assert status == 2
+    assert "--ignore CBEND,PBEND" in text
+    status, text = say(101, "LOAD=1\nSPC=1", bulk, "--ignore", "cbend,CFOO")
+    assert status == 0
+    assert "but not in the deck: CFOO" in text
+    with h5py.File(tmp_path / "model.h5") as file:
+        assert sorted(file.attrs["ignored_cards"]) == ["CBEND", "PBEND"]
+        assert any("CBEND" in notice for notice in file.attrs["notices"])
+        assert file["autospc/freedom"].asstr()[0] == "grid 9 T1"
+
+
+def test_shapes_of_elements_are_examined_before_solving(say, tmp_path):
+    bulk = (
+        "MAT1,1,7.+10,,.3\nPSHELL,1,1,.01,1\nGRID,1\nGRID,2,,1.\nGRID,3,,1.,1.,.4\n"
+        "GRID,4,,0.,1.\nCQUAD4,1,1,1,2,3,4\nSPC1,1,123456,1,4\nFORCE,1,3,,1.,0.,0.,1.\n"
+    )
+    status, text = say(101, "LOAD=1\nSPC=1", bulk, "--quality")
+    assert status == 0
+    assert "1 of 1 CQUAD4: warp beyond 0.05" in text
+    assert "angle_max" in text
+    with h5py.File(tmp_path / "model.h5") as file:
+        assert "warp" in file["quality/measure"].asstr()[:].tolist()
+
+
+def test_plain_progress_speaks_after_a_while_and_ever_less_often():
+    now, lines = [0.0], []
+    progress = PlainProgress("steps", lines.append, clock=lambda: now[0])
+    for done in range(1, 1001):
+        now[0] = 0.2 * done
+        progress(done, 1000)
+    assert lines[0].startswith("steps: 51 of 1000, 3 min 1")
+    assert 3 <= len(lines) <= 6
