@@ -27,6 +27,8 @@ SLICE_MODES = 400
 _CONVERGED = 1e-8
 # Share of the largest operator value below which a dense pair is a massless freedom.
 _MASSLESS = 1e-13
+# Share of the shift below which eigenvalues are rounding of one value (rigid bodies).
+_NOISE = 1e-3
 _RANDOM_RESTARTS = 8
 _LAST_ATTEMPT = _RANDOM_RESTARTS - 1
 
@@ -98,7 +100,8 @@ class EigenProblem:
         shapes = shapes / np.sqrt(theta)
         inside = (values >= limits[0]) & (values <= limits[1])
         chosen = np.flatnonzero(inside)[:count]
-        sturm = self._check(values, chosen, low=limits[0])
+        noise = _NOISE * abs(shift)
+        sturm = self._check(values, chosen, low=limits[0], noise=noise)
         return values[chosen], shapes[:, chosen], sturm
 
     def _failing_row(self, shift: float) -> int | None:
@@ -109,13 +112,22 @@ class EigenProblem:
         return None
 
     def _check(
-        self, values: Float64, chosen: npt.NDArray[np.intp], *, low: float
+        self,
+        values: Float64,
+        chosen: npt.NDArray[np.intp],
+        *,
+        low: float,
+        noise: float,
     ) -> list[SturmCount]:
-        """Counts at the ends of the chosen modes of an ascending spectrum."""
+        """Counts at the ends of the chosen modes of an ascending spectrum.
+
+        Values that differ by less than `noise` are not told apart: the rigid-body
+        modes are one cluster.
+        """
         counts = []
         limits = [low] if low > -np.inf else []
         if len(chosen):
-            limits.append(_gap_above(values, int(chosen[-1])))
+            limits.append(_gap_above(values, int(chosen[-1]), noise))
         for limit in limits:
             found = int(np.sum(values < limit))
             counts.append(SturmCount(hertz(limit), self.count(limit), found))
@@ -170,7 +182,9 @@ class EigenProblem:
                     sturm = [SturmCount(hertz(limit[0]), limit[1], found)]
                 else:
                     last = np.arange(len(converged))
-                    sturm = self._check(np.sort(values), last, low=-np.inf)
+                    sturm = self._check(
+                        np.sort(values), last, low=-np.inf, noise=_NOISE * abs(shift)
+                    )
                 missing = sum(c.counted - c.found for c in sturm)
                 if missing == 0 or lanczos.exhausted or attempt == _LAST_ATTEMPT:
                     break
@@ -335,12 +349,12 @@ def _first(pairs: RitzPairs, count: int) -> RitzPairs:
     )
 
 
-def _gap_above(values: Float64, last: int) -> float:
-    """A limit above values[last] in a gap of the ascending spectrum."""
+def _gap_above(values: Float64, last: int, noise: float) -> float:
+    """A limit above values[last] in a gap (wider than noise) of ascending values."""
     while last + 1 < len(values):
         a, b = values[last], values[last + 1]
-        if b - a > 1e-6 * max(abs(a), abs(b)):
+        if b - a > max(1e-6 * max(abs(a), abs(b)), noise):
             return float(0.5 * (a + b))
         last += 1
     top = float(values[-1])
-    return top + 1e-3 * max(abs(top), float(np.finfo(float).tiny))
+    return top + max(1e-3 * abs(top), noise, float(np.finfo(float).tiny))

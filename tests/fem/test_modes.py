@@ -143,3 +143,16 @@ def test_structures_without_modes_are_refused():
 def test_count_says_what_is_missing():
     assert "none missed" in str(SturmCount(12.0, 4, 4))
     assert "MISSING" in str(SturmCount(12.0, 5, 4))
+
+
+@pytest.mark.parametrize("count", [1, 3, 6, 7])
+@pytest.mark.parametrize("size", [40, 300])
+def test_fewer_modes_than_pieces_that_float(count, size):
+    """Six free chains: the limit of the Sturm count never falls among the zeros."""
+    chain = sp.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(size, size), format="lil")
+    chain[0, 0] = chain[-1, -1] = 1.0
+    stiffness = 1e7 * sp.block_diag([chain] * 6, format="csr")
+    modes = normal_modes(stiffness, sp.identity(6 * size, format="csr"), count=count)
+    assert modes.rigid == min(count, 6)
+    assert all(c.counted == c.found for c in modes.sturm)
+    assert modes.sturm[-1].counted == (6 if count <= 6 else 12)
