@@ -31,6 +31,11 @@ assert table["tyre load / kN"].is_monotonic_increasing
 assert gained > 0 and abs(impulse / gained - 1) < 1e-2
 assert 0.999 < landing["slip"].max() < 1.03
 """,
+    "05_studies": """
+assert by_relevance[3] < by_frequency[3]
+assert budget["formulation"].max() < 5e-3
+assert rms.loc["relevance 73"].max() < rms.loc["count 73"].max() / 2
+""",
 }
 IN_FULL = {
     "01_first_landing": """
@@ -56,6 +61,14 @@ assert 0.08 < spun_up < 0.1
 aft = stiffness * landing["aft_x"]
 assert -0.75 < aft.min() / aft.max() < -0.6
 assert run["slip"].iloc[-1] > 0.2  # the last run is the icy one
+""",
+    "05_studies": """
+assert rms.loc["count 19"].max() > 0.3
+assert rms.loc["relevance 36"].max() < rms.loc["count 73"].max()
+assert rms.loc["relevance 73"].max() < 0.03
+assert ((ratio > 0.5) & (ratio < 2)).mean() >= 0.9
+assert chosen.max() > 60
+assert feedback.loc["count 73"].max() > 0.05
 """,
 }
 
