@@ -6,11 +6,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.verification import (
+    cantilevers,
     commercial,
     drop_tests,
     macneal_harder,
     nafems_beams,
     nafems_plates,
+    patches,
     rigid_motion,
 )
 from benchmarks.verification.row import Row
@@ -54,14 +56,14 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         commercial.solid_shell_bar_modes,
         commercial.solid_shell_bar_transient,
         commercial.line_elements_transient,
-        commercial.cantilever_bar,
-        commercial.cantilever_plate,
+        cantilevers.cantilever_bar,
+        cantilevers.cantilever_plate,
         commercial.reductions,
         commercial.rbe3_matrices,
         commercial.truss_frame,
     ),
     "Patch tests and rigid motions": (
-        macneal_harder.patches,
+        patches.patches,
         rigid_motion.rigid_motions,
     ),
     "NAFEMS and closed forms": (

@@ -10,7 +10,13 @@ import scipy.sparse as sp
 
 import fem
 from benchmarks.verification.op2_tables import element_rows, first_times, read_op2
-from benchmarks.verification.row import SURFACES, Row, field, figure, listed
+from benchmarks.verification.row import (
+    SURFACES,
+    Row,
+    field,
+    figure,
+    listed,
+)
 from benchmarks.verification.runner import run
 from fem.constraints.rbe3 import read_rbe3
 from fem.points import Points
@@ -229,86 +235,6 @@ def _appearing(
 ) -> list[tuple[int, float]]:
     """Each printed value with the output at which the history comes closest."""
     return [(int(np.argmin(np.abs(history - v))), v) for v in values]
-
-
-def cantilever_bar(references: Path) -> list[Row]:
-    """Ten bars with an offset mass: modes, statics, step response."""
-    folder, case = references / "cantilever", "cantilever a (bars)"
-    n95 = json.loads((folder / "nastran95_cantilever.json").read_text())["cant_a"]
-    ops = json.loads((folder / "opensees_cantilever.json").read_text())
-    ops = ops["cant_a_consistent"]
-    modes = run(folder / "cant_a_modes.bdf")["modes/frequency_hz"]
-    static = run(folder / "cant_a_stat.bdf")["static/1/displacement"]
-    ours = run(folder / "cant_a_tran.bdf")
-    tip = ours["transient/1/displacement"][:, 10]
-    rows = [
-        listed(case, "frequencies, Hz", modes, n95["hz"][: len(modes)], "NASTRAN-95"),
-        listed(
-            case,
-            "lowest four, Hz",
-            modes[:4],
-            ops["hz"][:4],
-            "OpenSees (other mass matrix in bending)",
-            target=1e-4,
-        ),
-        field(
-            case,
-            "statics of all grids",
-            static,
-            [n95["static"][str(g)] for g in range(1, 12)],
-            "NASTRAN-95",
-        ),
-    ]
-    theirs = np.array(n95["transient"]["11"])[:, 1:]
-    for number, name in enumerate(("ux", "uy", "uz", "rx", "ry", "rz")):
-        if np.abs(theirs[:, number]).max() > 0.0:
-            rows.append(
-                field(
-                    case,
-                    f"step response, tip {name}",
-                    tip[:, number],
-                    theirs[:, number],
-                    "NASTRAN-95",
-                )
-            )
-    uz = tip[:, 2]
-    rows.append(figure(case, "peak uz", uz.max(), 0.03446439, "NASTRAN-95"))
-    force = np.array(n95["cbar101_force"]["rows"])[:, 1:]
-    mine = ours["transient/1/element_force/CBAR/value"][:, 0]
-    rows.append(field(case, "forces of the first bar", mine, force, "NASTRAN-95"))
-    rows.append(
-        field(
-            case,
-            "step response, tip uz",
-            uz,
-            ops["tip_uz"],
-            "OpenSees (average acceleration: differs by the order of the step)",
-            target=1e-3,
-        )
-    )
-    return rows
-
-
-def cantilever_plate(references: Path) -> list[Row]:
-    """Ten by four quadrilaterals, between four solvers' elements."""
-    folder, case = references / "cantilever", "cantilever b (10 x 4 plate)"
-    modes = run(folder / "cant_b_modes.bdf")["modes/frequency_hz"]
-    static = run(folder / "cant_b_stat.bdf").grid("static/1/displacement", 51)[2]
-    step = run(folder / "cant_b_tran.bdf").grid("transient/1/displacement", 51)[:, 2]
-    rows = []
-    for solver, hz, uz, peak in (
-        ("NASTRAN-95", [8.3752, 53.1421, 56.4987], 0.001927512, 0.003668651),
-        ("OpenSees MITC4", [8.3925, 53.6865, 57.1393], 0.001920661, 0.003660488),
-        ("CalculiX S8R", [8.4595, 52.8788, 56.9077], 0.001901791, 0.003613638),
-    ):
-        # Eight-node elements converge to another figure on this coarse mesh.
-        target = 0.02 if "S8R" in solver else SURFACES
-        rows.append(
-            listed(case, "frequencies, Hz", modes[:3], hz, solver, target=target)
-        )
-        rows.append(figure(case, "static corner uz", static, uz, solver, target=target))
-        rows.append(figure(case, "peak uz", step.max(), peak, solver, target=target))
-    return rows
 
 
 def reductions(references: Path) -> list[Row]:

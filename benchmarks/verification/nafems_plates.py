@@ -66,7 +66,12 @@ def plates(meshes: tuple[int, ...] = (8, 16, 32, 64)) -> list[Row]:
         exact = np.array(published)
         if support != "simple":
             exact = ritz_frequencies(
-                RIGIDITY, RHO * 0.05, SIDE, NU, count, clamped=support == "clamped"
+                RIGIDITY,
+                RHO * 0.05,
+                (SIDE, SIDE),
+                NU,
+                count,
+                clamped=support == "clamped",
             )
         for mode, (theirs, theory) in enumerate(zip(published, exact)):
             found = [(mesh, values[mode]) for mesh, values in hz.items()]

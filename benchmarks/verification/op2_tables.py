@@ -29,6 +29,17 @@ _COLUMNS: dict[str, list[int] | None] = {
     "stress/chexa": None,
     "stress/cpenta": None,
     "stress/ctetra": None,
+    "strain/crod": [0, 2],
+    "strain/cbar": _BAR_STRESS,
+    "strain/cbeam": [0, 1, 2, 3, 4, 5],
+    "strain/ctube": [0, 2],
+    "strain/cquad4": None,
+    "strain/ctria3": None,
+    "strain/cquad4_composite": None,
+    "strain/ctria3_composite": None,
+    "strain/chexa": None,
+    "strain/cpenta": None,
+    "strain/ctetra": None,
 }
 _LINE_CARDS = ("crod", "cbar", "cbeam", "ctube", "celas3")
 
@@ -161,7 +172,7 @@ def _compare(
 
 
 def _angle_columns(title: str, width: int) -> list[int]:
-    if "stress of CQUAD4" not in title and "stress of CTRIA3" not in title:
+    if title.startswith("force") or not ("CQUAD4" in title or "CTRIA3" in title):
         return []
     period, first = (9, 5) if "COMPOSITE" in title else (8, 4)
     return list(range(first, width, period))

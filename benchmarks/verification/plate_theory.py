@@ -63,27 +63,25 @@ def _matrices(
 def ritz_frequencies(
     rigidity: float,
     mass: float,
-    side: float,
+    sides: tuple[float, float],
     nu: float,
     count: int,
     *,
     clamped: bool,
     terms: int = 14,
 ) -> Float64:
-    """Elastic frequencies (Hz) of a square plate, free or clamped at one edge.
+    """Elastic frequencies (Hz) of a rectangular plate, free or clamped at one edge.
 
     Args:
         rigidity: D, N m.
         mass: per area, kg/m².
-        side: m.
+        sides: lengths in x and y, m.
         nu: Poisson's ratio.
         count: how many.
         clamped: whether the edge x = 0 is clamped.
         terms: polynomials in each direction.
     """
-    stiffness, inertia = _matrices(
-        side, side, nu, (clamped, False), (False, False), terms
-    )
+    stiffness, inertia = _matrices(*sides, nu, (clamped, False), (False, False), terms)
     values = scipy.linalg.eigvalsh(stiffness, inertia)
     elastic = values[0 if clamped else 3 :][:count]
     return np.sqrt(elastic * rigidity / mass) / (2.0 * np.pi)
