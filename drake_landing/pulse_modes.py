@@ -53,7 +53,7 @@ def pulse_modes(
     mix = vectors[:, ::-1][:, :count]
     omega2 = (2.0 * np.pi * model.frequency_hz[elastic]) ** 2
     values, turn = np.linalg.eigh(mix.T @ (omega2[:, None] * mix))
-    return np.sqrt(values) / (2.0 * np.pi), mix @ turn
+    return np.sqrt(values) / (2.0 * np.pi), np.asarray(mix @ turn, dtype=np.float64)
 
 
 def _size(samples: Float64) -> float:

@@ -23,6 +23,7 @@ def test_constraints_pin_every_dependency() -> None:
         if "==" in line
     }
     names = {
-        w.split(";")[0].split(">")[0].split("<")[0].strip().lower() for w in wanted
+        w.split(";")[0].split("[")[0].split(">")[0].split("<")[0].strip().lower()
+        for w in wanted
     }
     assert names <= pinned
