@@ -14,6 +14,7 @@ from benchmarks.verification import (
     nafems_plates,
     patches,
     rigid_motion,
+    small_systems,
 )
 from benchmarks.verification.row import Row
 
@@ -72,7 +73,8 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         nafems_beams.fv5,
         nafems_beams.deep_beam_transient,
         nafems_beams.euler_cantilever,
-        nafems_beams.damped_oscillator,
+        small_systems.damped_oscillator,
+        small_systems.four_points,
         nafems_plates.plates,
         nafems_plates.free_plate_against_optistruct,
         nafems_plates.tapered_membrane,

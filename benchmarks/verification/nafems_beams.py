@@ -228,31 +228,3 @@ def euler_cantilever() -> list[Row]:
                 target=1e-4,
             )
     return rows
-
-
-def damped_oscillator() -> list[Row]:
-    """A sudden force on mass, spring and damper, steps from coarse to fine."""
-    m, hz, z = 2.0, 5.0, 0.05
-    w = 2 * np.pi * hz
-    rows = []
-    found = []
-    for steps in (200, 800, 3200):
-        bulk = Bulk(f"TSTEP,7,{steps},{1.0 / steps:.10g}\nTLOAD1,5,6,,LOAD,8")
-        bulk.lines.append("TABLED1,8\n+,0.,1.,10.,1.,ENDT\nSPOINT,1\nDAREA,6,1,0,3.")
-        bulk.add("CELAS2", 1, m * w * w, 1)
-        bulk.add("CMASS2", 2, m, 1)
-        bulk.add("CDAMP2", 3, 2 * z * w * m, 1)
-        ours = run(bulk.deck(109, "TSTEP = 7\nDLOAD = 5\nDISP = ALL"))
-        u = ours["transient/1/displacement_scalar_point"][:, 0]
-        found.append((f"{steps} steps", float(u.max())))
-    wd = w * np.sqrt(1 - z * z)
-    peak = 3.0 / (m * w * w) * (1 + np.exp(-z * w * np.pi / wd))
-    rows += convergence(
-        "damped oscillator",
-        "peak after a step",
-        found,
-        peak,
-        "closed form",
-        target=1e-3,
-    )
-    return rows
