@@ -77,12 +77,28 @@ def check(
 
 @app.command()
 def model(
-    level: Annotated[str, typer.Argument(help="con, pre or full")],
+    level: Annotated[str, typer.Argument(help="con, pre, full, or from-cpacs")],
     out: Annotated[Path, typer.Option("--out", help="bulk-data file to write")],
+    source: Annotated[
+        Path | None, typer.Argument(metavar="FILE.xml", help="for from-cpacs")
+    ] = None,
+    cpacs_level: Annotated[
+        str, typer.Option("--level", help="of from-cpacs: con, pre or full")
+    ] = "pre",
 ) -> None:
-    """Writes a reference aircraft as a Nastran deck."""
+    """Writes a reference aircraft, or one from a CPACS file, as a Nastran deck."""
     from drake_landing.inputs import write_model_deck
+    from fem.errors import InputError
 
+    if level == "from-cpacs":
+        if source is None:
+            raise InputError("model from-cpacs: give a CPACS file")
+        from drake_landing.aircraft.cpacs import write_cpacs_model
+
+        print(write_cpacs_model(source, cpacs_level, out).story(out))
+        return
+    if source is not None:
+        raise InputError(f"model {level}: found {source}; only from-cpacs takes a file")
     print(write_model_deck(level, out))
 
 

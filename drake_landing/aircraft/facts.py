@@ -5,7 +5,8 @@ plain values under the same names. `table("wing_ribs")` gives a CSV file. What t
 sources are is said in `data/README.md`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from importlib import resources
 from typing import Any
@@ -27,15 +28,43 @@ def raw(name: str) -> dict[str, Any]:
     return yaml.safe_load(_text(f"{name}.yaml"))
 
 
-@cache
 def facts(name: str) -> dict[str, Any]:
     """The plain values of `data/<name>.yaml`, SI units and degrees."""
+    return _facts.get(name) or _own_facts(name)
+
+
+def table(name: str) -> pd.DataFrame:
+    """The file `data/<name>.csv`, SI units; columns `source` and `estimate` last."""
+    return _tables[name] if name in _tables else _own_table(name)
+
+
+@contextmanager
+def replaced(
+    facts: Mapping[str, dict[str, Any]], tables: Mapping[str, pd.DataFrame]
+) -> Iterator[None]:
+    """Other facts and tables of these names for a while: another aircraft's."""
+    before = dict(_facts), dict(_tables)
+    _facts.update(facts)
+    _tables.update(tables)
+    try:
+        yield
+    finally:
+        for own, kept in zip((_facts, _tables), before):
+            own.clear()
+            own.update(kept)
+
+
+_facts: dict[str, dict[str, Any]] = {}
+_tables: dict[str, pd.DataFrame] = {}
+
+
+@cache
+def _own_facts(name: str) -> dict[str, Any]:
     return _plain(raw(name))
 
 
 @cache
-def table(name: str) -> pd.DataFrame:
-    """The file `data/<name>.csv`, SI units; columns `source` and `estimate` last."""
+def _own_table(name: str) -> pd.DataFrame:
     with resources.as_file(
         resources.files("drake_landing.aircraft") / "data" / f"{name}.csv"
     ) as path:
