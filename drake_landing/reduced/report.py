@@ -31,7 +31,7 @@ def report_text(model: ReducedModel, checks: ReductionChecks) -> str:
         "mass properties",
         _table(checks.mass, {"difference": "{:.2e}"}, "{:,.4f}"),
         "",
-        f"rigid-body motions ({checks.rigid_modes} modes without strain energy)",
+        f"rigid-body motions ({checks.rigid_modes} modes below 0.01 Hz)",
         _table(checks.rigid, {"effective_mass": "{:.4f}"}, "{:.2e}"),
         "",
         "elastic modes of the reduced model",
