@@ -44,4 +44,5 @@ def make_landing(
         aircraft.gears,
         monitor_nodes=list(aircraft.monitoring.values()),
         energy_budget=energy_budget,
+        brakes=False,
     )

@@ -14,12 +14,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from pydrake.multibody.plant import (
-    ExternallyAppliedSpatialForceMultiplexer,
-    MultibodyPlant,
-)
+from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import Diagram, DiagramBuilder, LeafSystem
-from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
+from pydrake.systems.primitives import Adder, LogVectorOutput, VectorLogSink
 
 from drake_landing.gear import LandingGear
 from drake_landing.gear_bodies import AddLandingGear, GearBodies
@@ -166,7 +163,9 @@ def MakeLandingDiagram(
     held = builder.AddNamedSystem("attachment", kind(plant, points))
     if attachment == "rigid":
         require_shared_loads(body, gears, points, nodes)
-    parts = AddGearSystems(builder, plant, gears, bodies, runway, brakes)
+    parts = AddGearSystems(
+        builder, plant, gears, bodies, runway, brakes, connect_plant=False
+    )
     _connect_attachment(builder, plant, airframe, held, parts.gear_forces)
     carrying = None
     if lift is None:
@@ -225,14 +224,15 @@ def _connect_attachment(
         _connect(builder, airframe, f"node_{port}", held, f"node_{port}")
     _connect(builder, airframe, "pose", held, "airframe_pose")
     _connect(builder, held, "wrench_on_airframe", airframe, "attachment_wrench")
-    for port in ("spatial_forces", "generalized_force"):
-        _connect(builder, forces, port, held, port)
-    both = builder.AddNamedSystem(
-        "spatial_forces", ExternallyAppliedSpatialForceMultiplexer(2)
+    _connect(builder, forces, "all_generalized_force", held, "generalized_force")
+    both = builder.AddNamedSystem("all_forces", Adder(2, plant.num_velocities()))
+    for i, (system, port) in enumerate(
+        ((forces, "all_generalized_force"), (held, "generalized_force_on_gear"))
+    ):
+        builder.Connect(system.GetOutputPort(port), both.get_input_port(i))
+    builder.Connect(
+        both.get_output_port(), plant.GetInputPort("applied_generalized_force")
     )
-    builder.Connect(forces.GetOutputPort("spatial_forces"), both.get_input_port(0))
-    builder.Connect(held.GetOutputPort("wrench_on_gear"), both.get_input_port(1))
-    builder.Connect(both.get_output_port(), plant.GetInputPort("applied_spatial_force"))
 
 
 def _add_loggers(

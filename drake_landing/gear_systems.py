@@ -68,6 +68,7 @@ def AddGearSystems(
     bodies: Mapping[str, GearBodies],
     runway: Runway | None = None,
     brakes: bool = True,
+    connect_plant: bool = True,
 ) -> GearSystems:
     """Adds tyres, shock absorbers and what connects them to a plant.
 
@@ -84,6 +85,8 @@ def AddGearSystems(
         bodies: what AddLandingGear returned for each, by name.
         runway: default flat and dry.
         brakes: of gears that have them; False leaves them out.
+        connect_plant: False leaves both inputs of the plant to the caller, who may
+            then use the port `all_generalized_force`, which holds the tyres' forces.
 
     Raises:
         ValueError: a parameter is out of range.
@@ -123,7 +126,10 @@ def AddGearSystems(
         if isinstance(strut, LeverStrut):
             ratio = f"strut_ratio_{name}"
             _connect(builder, kinematics, ratio, forces, f"ratio_{name}")
-    _connect(builder, forces, "generalized_force", plant, "applied_generalized_force")
+    _connect(builder, kinematics, "wheel_jacobian", forces, "wheel_jacobian")
+    if connect_plant:
+        applied = "applied_generalized_force"
+        _connect(builder, forces, "generalized_force", plant, applied)
     return systems
 
 

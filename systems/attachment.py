@@ -58,8 +58,8 @@ class Attachment(LeafSystem):
     | input port | size | unit | |
     |---|---|---|---|
     | plant_state | nq + nv | | |
-    | spatial_forces | abstract | | all other forces on the gears, as the plant gets |
-    | generalized_force | nv | | them too |
+    | generalized_force | nv | | all other forces on the gears, as the plant gets |
+    | spatial_forces | abstract | | them too; none if not connected |
     | node_pose, node_velocity | 12 k, 6 k | | of the airframe's attachment nodes, W |
     | node_free_acceleration, node_compliance | 6 k, (6 k)² | | same |
     | airframe_pose | 7 | | quaternion of R_WB, p_WG |
@@ -68,6 +68,7 @@ class Attachment(LeafSystem):
     |---|---|---|---|
     | wrench_on_airframe | 6 k | N m, N | [torque; force] at the nodes, W |
     | wrench_on_gear | abstract | | the opposite, for the plant |
+    | generalized_force_on_gear | nv | N, N m | or so: the plant gets one of the two |
     | load_in_airframe_axes | 6 k | N, N m | [force; moment] on the airframe, B |
     | gap | 12 k | rad, m, 1/s | fitting relative to node: rotation, translation and
       their rates, W |
@@ -138,6 +139,12 @@ class Attachment(LeafSystem):
             wrench,
         )
         vector(
+            "generalized_force_on_gear",
+            self._plant.num_velocities(),
+            self._calc_generalized_on_gear,
+            wrench,
+        )
+        vector(
             "load_in_airframe_axes",
             6 * k,
             self._calc_load_in_airframe_axes,
@@ -197,6 +204,13 @@ class Attachment(LeafSystem):
     def _calc_on_gear(self, context, output) -> None:
         wrenches = self._wrench.Eval(context)[0].reshape(-1, 6)
         output.set_value(spatial_forces(self._bodies, wrenches))
+
+    def _calc_generalized_on_gear(self, context, output) -> None:
+        # The velocities of a floating joint are the spatial velocity: the wrench is
+        # its generalised force.
+        force = np.zeros(self._plant.num_velocities())
+        force[self._rows] = self._wrench.Eval(context)[0]
+        output.SetFromVector(force)
 
     def _calc_load_in_airframe_axes(self, context, output) -> None:
         R_WB = rotation_from_quaternion(self._airframe_pose.Eval(context)[:4])
@@ -268,11 +282,12 @@ class RigidAttachment(Attachment):
         plant.CalcForceElementsContribution(plant_context, forces)
         generalized = forces.mutable_generalized_forces()
         generalized += self._generalized.Eval(context)
-        world, get_body = self._world, plant.get_body
-        for force in self._spatial.Eval(context):
-            get_body(force.body_index).AddInForce(
-                plant_context, force.p_BoBq_B, force.F_Bq_W, world, forces
-            )
+        if self._spatial.HasValue(context):
+            world, get_body = self._world, plant.get_body
+            for force in self._spatial.Eval(context):
+                get_body(force.body_index).AddInForce(
+                    plant_context, force.p_BoBq_B, force.F_Bq_W, world, forces
+                )
         return -plant.CalcInverseDynamics(plant_context, self._zero, forces)
 
     def _load(self, context: Context, gap: Gap) -> Float64:

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 from pydrake.common.value import Value
 from pydrake.multibody.math import SpatialForce
 from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlant
@@ -30,8 +31,13 @@ class GearForces(LeafSystem):
       the opposite torque acts on the piston |
     | in `brake_<wheel>` (for braked wheels) | 1 | N m | torque on the wheel about its
       joint axis; the opposite torque acts on the axle |
+    | in `wheel_jacobian` (for all_generalized_force) | 6 k nv | | of WheelKinematics |
     | out `spatial_forces` | abstract | | list of ExternallyAppliedSpatialForce |
     | out `generalized_force` | nv | N, N m | of struts, brakes and pitch dampers |
+    | out `all_generalized_force` | nv | N, N m | the same and the tyres: all in one |
+
+    Plant and attachment get either the first two outputs or the last one, which takes
+    less time.
 
     Args:
         plant: finalised.
@@ -62,6 +68,9 @@ class GearForces(LeafSystem):
         )
         levers = {n: s.joint for n, s in struts.items() if isinstance(s, LeverStrut)}
         self._ratios = self._inputs("ratio", levers, 1)
+        self._jacobian: Any = self.DeclareVectorInputPort(
+            "wheel_jacobian", 6 * len(wheels) * self._nv
+        )
         self._levers = [i for i, name in enumerate(struts) if name in levers]
         sliding = [levers.get(name, strut) for name, strut in struts.items()]
         joints: list[Any] = [*sliding, *brakes.values(), *pitches.values()]
@@ -74,12 +83,18 @@ class GearForces(LeafSystem):
             self._calc_spatial_forces,
             {port.ticket() for port in self._tires},
         )
+        joint_loads = {port.ticket() for port in (*self._joints, *self._ratios)}
         self.DeclareVectorOutputPort(
             "generalized_force",
             self._nv,
             self._calc_generalized_force,
-            {port.ticket() for port in (*self._joints, *self._ratios)}
-            or {self.nothing_ticket()},
+            joint_loads or {self.nothing_ticket()},
+        )
+        self.DeclareVectorOutputPort(
+            "all_generalized_force",
+            self._nv,
+            self._calc_all_generalized_force,
+            joint_loads | {port.ticket() for port in (*self._tires, self._jacobian)},
         )
 
     def _inputs(self, kind: str, names: Mapping, size: int) -> tuple:
@@ -91,12 +106,20 @@ class GearForces(LeafSystem):
         output.set_value(spatial_forces(self._bodies, wrenches))
 
     def _calc_generalized_force(self, context, output) -> None:
+        output.SetFromVector(self._joint_loads(context))
+
+    def _calc_all_generalized_force(self, context, output) -> None:
+        wrenches = np.concatenate([port.Eval(context) for port in self._tires])
+        jacobian = self._jacobian.Eval(context).reshape(len(wrenches), self._nv)
+        output.SetFromVector(self._joint_loads(context) + wrenches @ jacobian)
+
+    def _joint_loads(self, context) -> npt.NDArray[np.float64]:
         out = np.zeros(self._nv)
         forces = [port.Eval(context)[0] for port in self._joints]
         for i, port in zip(self._levers, self._ratios):
             forces[i] *= port.Eval(context)[0]
         out[self._rows] = self._signs * forces
-        output.SetFromVector(out)
+        return out
 
 
 def spatial_forces(

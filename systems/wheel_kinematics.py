@@ -4,36 +4,39 @@ Tyres and shock absorbers then need no plant: they take short vectors, can be te
 alone and their inputs can be logged.
 """
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import Joint, PrismaticJoint, RevoluteJoint, RigidBody
 from pydrake.systems.framework import LeafSystem, ValueProducer
 
+from systems.joint_tree import JointTree
 from systems.lever_strut import LeverGeometry, LeverStrut
 
 Strut = PrismaticJoint | LeverStrut
 
 
 class WheelKinematics(LeafSystem):
-    """Kinematics of all wheels and struts of an aircraft, about 70 µs for six wheels.
+    """Kinematics of all wheels and struts of an aircraft.
 
     | port | size | unit | |
     |---|---|---|---|
     | in `plant_state` | nq + nv | | positions and velocities of the plant |
     | out `wheel_<name>` | 12 | m, -, m/s, rad/s | p_WC of the wheel centre, axle
       direction (y axis of the wheel body), v_WC, ω_WH of the wheel body; all in W |
+    | out `wheel_jacobian` | 6 k nv | | [angular; linear] velocity of each wheel body
+      at its centre, W, per velocity of the plant, by rows |
     | out `strut_<name>` | 2 | m, m/s | stroke and rate, positive in compression |
     | out `strut_axis_<name>` | 3 | | direction of compression, W |
     | out `strut_ratio_<name>` | 1 | m/rad | stroke over angle, of lever struts only |
     | out `spin_<name>` | 1 | rad/s | rate of the joints in `spins` |
     | out `pitch_<name>` | 2 | rad, rad/s | angle and rate of the joints in `pitches` |
 
-    The plant is a model only: its context lives in a cache entry, as in Drake's
-    InverseDynamics.
+    The plant is a model only: wheels are followed by `joint_tree`, and what else is
+    asked of the plant by a context in a cache entry, as in Drake's InverseDynamics.
 
     Args:
         plant: finalised, continuous.
@@ -54,7 +57,7 @@ class WheelKinematics(LeafSystem):
     ) -> None:
         super().__init__()
         self._plant = plant
-        self._wheels = tuple(wheels.values())
+        self._tree = JointTree(plant, list(wheels.values()))
         self._state = self.DeclareVectorInputPort(
             "plant_state", plant.num_multibody_states()
         )
@@ -70,7 +73,13 @@ class WheelKinematics(LeafSystem):
         self._motion: Any = self.DeclareCacheEntry(
             "wheels",
             ValueProducer(allocate=lambda: Value(object()), calc=self._calc_wheels),
-            {self._context.ticket()},
+            state,
+        )
+        self.DeclareVectorOutputPort(
+            "wheel_jacobian",
+            6 * len(wheels) * plant.num_velocities(),
+            self._calc_jacobian,
+            {self._motion.ticket()},
         )
         for i, name in enumerate(wheels):
             self.DeclareVectorOutputPort(
@@ -102,7 +111,7 @@ class WheelKinematics(LeafSystem):
 
     def _wheel_port(self, i: int):
         def calc(context, output):
-            output.SetFromVector(self._motion.Eval(context)[i])
+            output.SetFromVector(self._motion.Eval(context)[0][i])
 
         return calc
 
@@ -137,7 +146,7 @@ class WheelKinematics(LeafSystem):
             upper = parent.CalcPoseInWorld(plant_context).multiply(strut.p_upper)
             lower = child.CalcPoseInWorld(plant_context).multiply(strut.p_lower)
             span = upper - lower
-            output.SetFromVector(span / np.sqrt(span @ span))
+            output.SetFromVector(span / math.sqrt(span @ span))
 
         return calc
 
@@ -155,16 +164,10 @@ class WheelKinematics(LeafSystem):
         self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
 
     def _calc_wheels(self, context, value) -> None:
-        plant_context = self._context.Eval(context)
-        out = np.empty((len(self._wheels), 12))
-        for row, wheel in zip(out, self._wheels):
-            X_WH = wheel.EvalPoseInWorld(plant_context)
-            V_WH = wheel.EvalSpatialVelocityInWorld(plant_context).get_coeffs()
-            row[:3] = X_WH.translation()
-            row[3:6] = X_WH.rotation().col(1)
-            row[6:9] = V_WH[3:]
-            row[9:] = V_WH[:3]
-        value.set_value(out)
+        value.set_value(self._tree.motion(self._state.Eval(context)))
+
+    def _calc_jacobian(self, context, output) -> None:
+        output.SetFromVector(self._motion.Eval(context)[1].ravel())
 
 
 def _state_rows(plant: MultibodyPlant, joint: Joint) -> list[int]:

@@ -71,6 +71,21 @@ def test_both_sides_accelerate_alike():
     assert_allclose(fitting, node, atol=1e-10 * np.abs(node).max())
     opposite = [f.F_Bq_W.get_coeffs() for f in on_gear]
     assert_allclose(wrench, -np.ravel(opposite))
+    # The same as a generalised force.
+    other = plant.CreateDefaultContext()
+    plant.SetPositionsAndVelocities(other, inputs["plant_state"])
+    plant.get_applied_spatial_force_input_port().FixValue(other, others)
+    plant.get_applied_generalized_force_input_port().FixValue(
+        other,
+        inputs["generalized_force"]
+        + _eval(system, context, "generalized_force_on_gear"),
+    )
+    assert_allclose(
+        plant.EvalTimeDerivatives(other).CopyToVector(),
+        plant.EvalTimeDerivatives(of_plant).CopyToVector(),
+        rtol=1e-10,
+        atol=1e-9,
+    )
 
 
 def test_drift_is_taken_back_at_the_given_rates():

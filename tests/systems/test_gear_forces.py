@@ -4,6 +4,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 
 from systems.gear_forces import GearForces
+from systems.wheel_kinematics import WheelKinematics
 from tests.systems.small_gears import two_gears, violent_state
 
 
@@ -71,3 +72,27 @@ def test_feedthrough_of_each_output_is_its_own():
         port = system.GetInputPort(name).get_index()
         assert system.HasDirectFeedthrough(port, spatial) is to_spatial
         assert system.HasDirectFeedthrough(port, general) is not to_spatial
+
+
+def test_one_generalised_force_moves_the_plant_as_both_kinds_together():
+    plant, wheels, struts, _, system, context = _forces()
+    kinematics = WheelKinematics(plant, wheels, struts)
+    of_kinematics = kinematics.CreateDefaultContext()
+    state = violent_state(plant)
+    kinematics.GetInputPort("plant_state").FixValue(of_kinematics, state)
+    jacobian = kinematics.GetOutputPort("wheel_jacobian").Eval(of_kinematics)
+    system.GetInputPort("wheel_jacobian").FixValue(context, jacobian)
+    rates = []
+    for together in (False, True):
+        of_plant = plant.CreateDefaultContext()
+        plant.SetPositionsAndVelocities(of_plant, state)
+        spatial = system.GetOutputPort("spatial_forces").Eval(context)
+        port = "all_generalized_force" if together else "generalized_force"
+        plant.get_applied_spatial_force_input_port().FixValue(
+            of_plant, [] if together else spatial
+        )
+        plant.get_applied_generalized_force_input_port().FixValue(
+            of_plant, system.GetOutputPort(port).Eval(context)
+        )
+        rates.append(plant.EvalTimeDerivatives(of_plant).CopyToVector())
+    assert_allclose(rates[1], rates[0], rtol=1e-11, atol=1e-11)
