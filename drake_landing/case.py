@@ -150,6 +150,10 @@ class Airframe(Section):
         default=None,
         description="Nastran bulk-data file, SI units, relative to the case file",
     )
+    ignore: tuple[str, ...] = Field(
+        default=(),
+        description="unsupported cards of the deck to go on without, e.g. [CBEND]",
+    )
     matrices: Matrices | None = Field(
         default=None,
         description="reduced matrices and their grids, instead of `deck`; the direct "

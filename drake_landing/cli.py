@@ -69,10 +69,10 @@ def check(
     if case is None:
         raise InputError("check: give a case file, or --schema")
     checked = load_case(case)
-    print(case_text(checked), end="")
     from drake_landing.explain import explain
 
-    print(f"\n{explain(checked)}")
+    explained = explain(checked)
+    print(f"{case_text(checked)}\n{explained}")
 
 
 @app.command()

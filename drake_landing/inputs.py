@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from drake_landing.case import Case, Matrices
@@ -83,13 +84,14 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         InputError: the deck is not there, or the built-in model is unknown.
     """
     airframe = case.airframe
-    read = read_deck
+    read: Callable[[Path], Deck] = partial(read_deck, ignore=airframe.ignore)
     if airframe.model is None:
         deck = airframe.deck
         if airframe.matrices is not None:
             deck, read = _matrices_deck(airframe.matrices, out)
         if deck is None or not deck.is_file():
-            raise InputError(f"airframe.deck: no such file: {deck}")
+            found = "a folder" if deck is not None and deck.is_dir() else "no such file"
+            raise InputError(f"airframe.deck: {found}: {deck}")
         assert case.gears != "d150"  # the case sees to it
         return Aircraft(
             name=deck.stem,

@@ -19,6 +19,7 @@ from drake_landing.cache import Cache
 from drake_landing.case import Case
 from drake_landing.cases_io import case_text
 from drake_landing.comparison import RunLabel, comparison_table
+from drake_landing.extremes import element_envelopes, worst_elements
 from drake_landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.history import POINT, LandingHistory, gear_peaks
 from drake_landing.inputs import Aircraft, prepare_aircraft
@@ -27,6 +28,7 @@ from drake_landing.progress import Reporter, Silent
 from drake_landing.response import transient_response
 from drake_landing.results import write_csv, write_history_csv, write_results
 from drake_landing.transient_deck import transient_deck, write_transient_deck
+from fem.envelope import Envelope
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,6 +42,7 @@ class ProcessResult:
         history: the multibody run.
         loads: attachment loads on the grid of the transient, as handed over.
         response: acceleration of the monitoring points, direct transient, B.
+        envelopes: extremes of all element forces and stresses in the transient.
         comparison: table of `comparison.csv`.
         gears: table of `gears.csv`.
         notices: what the user should know.
@@ -52,6 +55,7 @@ class ProcessResult:
     history: LandingHistory
     loads: AttachmentLoads
     response: dict[str, pd.DataFrame]
+    envelopes: tuple[Envelope, ...]
     comparison: pd.DataFrame
     gears: pd.DataFrame
     notices: tuple[str, ...] = ()
@@ -96,8 +100,14 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
     write_landing_deck(out / "landing_sol109.bdf", case, aircraft, airframe, loads)
 
     stages.begin("direct transient response of the full model")
+    envelopes = element_envelopes(airframe.structure)
     response = transient_response(
-        airframe.structure, loads, points, case.transient.scheme, stages.progress
+        airframe.structure,
+        loads,
+        points,
+        case.transient.scheme,
+        stages.progress,
+        envelopes,
     )
 
     stages.begin("comparing")
@@ -122,6 +132,7 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
         history=history,
         loads=loads,
         response=response,
+        envelopes=tuple(envelopes),
         comparison=comparison,
         gears=gear_peaks(case.name, history),
         notices=(*aircraft.notices, *airframe.notices),
@@ -179,11 +190,13 @@ def write_all(result: ProcessResult, out: Path) -> None:
         history=history,
         loads=result.loads,
         response=result.response,
+        envelopes=result.envelopes,
         comparison=result.comparison,
         gears=result.gears,
     )
     write_csv(out / "comparison.csv", result.comparison)
     write_csv(out / "gears.csv", result.gears)
+    write_csv(out / "worst_elements.csv", worst_elements(result.envelopes, 10))
     write_history_csv(out / "attachment_loads.csv", history.attachment)
     write_history_csv(out / "tyres.csv", history.tyre)
     write_history_csv(out / "struts.csv", history.strut)

@@ -13,7 +13,7 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
 
 import importlib.metadata
 import platform
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import h5py
@@ -22,6 +22,7 @@ import pandas as pd
 
 from drake_landing.handover import AttachmentLoads
 from drake_landing.history import UNITS, LandingHistory
+from fem.envelope import Envelope
 from systems.modal_body import ModalBody
 
 _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
@@ -68,6 +69,7 @@ def write_results(
     history: LandingHistory,
     loads: AttachmentLoads,
     response: Mapping[str, pd.DataFrame],
+    envelopes: Sequence[Envelope],
     comparison: pd.DataFrame,
     gears: pd.DataFrame,
 ) -> None:
@@ -80,6 +82,7 @@ def write_results(
         history: the multibody run.
         loads: on the grid of the transient.
         response: acceleration of the monitoring points in the direct transient.
+        envelopes: extremes of the element results in the direct transient.
         comparison, gears: the tables of the same names.
     """
 
@@ -92,6 +95,8 @@ def write_results(
             _write_history(file.create_group("multibody"), history)
             for point, table in response.items():
                 _write_series(file, f"fe/monitoring/{point}", table)
+            for envelope in envelopes:
+                envelope.write(file)
             _write_airframe(file.create_group("airframe"), body)
             _write_table(file.create_group("comparison"), comparison)
             _write_table(file.create_group("gears"), gears)

@@ -167,23 +167,31 @@ def _status(arguments: list[str] | None) -> int:
     from fem.errors import InputError
 
     try:
-        app(args=arguments, prog_name="python -m fem", standalone_mode=False)
+        status = app(args=arguments, prog_name="python -m fem", standalone_mode=False)
     except InputError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    except typer.Abort:
-        return 2
-    except KeyboardInterrupt:
+    except (typer.Abort, KeyboardInterrupt):
         print("interrupted", file=sys.stderr)
-        return 1
+        return 130
     except Exception as error:
         if hasattr(error, "exit_code") and hasattr(error, "show"):
             error.show()
             return int(error.exit_code)
         if isinstance(error, OSError | MemoryError):
-            print(f"error: {error or type(error).__name__}", file=sys.stderr)
+            print(f"error: {_system_problem(error)}", file=sys.stderr)
             return 2 if isinstance(error, OSError) else 1
         traceback.print_exc()
         print("error: internal failure (please report it)", file=sys.stderr)
         return 1
-    return 0
+    if status == 130:
+        print("interrupted", file=sys.stderr)
+    return status if isinstance(status, int) else 0
+
+
+def _system_problem(error: OSError | MemoryError) -> str:
+    """The file and what the system says of it."""
+    if isinstance(error, OSError) and error.strerror:
+        place = f"{error.filename}: " if error.filename else ""
+        return f"{place}{error.strerror}"
+    return str(error) or type(error).__name__

@@ -46,6 +46,11 @@ class Envelope:
         self.smallest, self.largest = np.full(shape, np.inf), np.full(shape, -np.inf)
         self.time_of_smallest, self.time_of_largest = np.zeros(shape), np.zeros(shape)
 
+    @property
+    def name(self) -> str:
+        """Group of the result file."""
+        return self._name
+
     def begin(self, time: Float64, cases: int, size: int) -> None:
         """Start afresh; see `Observer`."""
         self.smallest[:], self.largest[:] = np.inf, -np.inf

@@ -101,6 +101,8 @@ def write_model(
     target = Path(path)
     if not target.parent.is_dir():
         raise InputError(f"{target}: the folder {target.parent} does not exist")
+    if target.is_dir():
+        raise InputError(f"{target}: is a folder, expected the name of a file")
     model = build(level, topology)
     part = target.with_name(target.name + ".part")
     part.write_text(model.deck, encoding="ascii")

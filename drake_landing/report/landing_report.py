@@ -10,6 +10,7 @@ import pandas as pd
 
 from drake_landing.cases_io import case_text
 from drake_landing.comparison import NEGLIGIBLE, shock_response_spectrum
+from drake_landing.extremes import worst_elements
 from drake_landing.report import figures
 from drake_landing.report.page import (
     Block,
@@ -41,6 +42,16 @@ _AGREEMENT_FORMATS = {
     **dict.fromkeys(("peak_fe", "peak_mbs"), ".3f"),
     **dict.fromkeys(("peak_error", "rms_error", "sprague_geers"), ".2%"),
     "correlation": ".4f",
+}
+
+
+_WORST = {
+    "result": "result",
+    "type": "type",
+    "column": "quantity",
+    "element": "element",
+    "value": "extreme",
+    "time": "time, s",
 }
 
 
@@ -83,6 +94,7 @@ def _sections(result: "ProcessResult") -> Iterator[Section]:
         blocks=[Block(svg=figures.attachment_loads(result.history))],
     )
     yield _accelerations(result)
+    yield _parts(result)
     yield _spectra(result)
     yield Section(
         id="energy",
@@ -93,6 +105,19 @@ def _sections(result: "ProcessResult") -> Iterator[Section]:
         blocks=[Block(svg=figures.energy(result.history))],
     )
     yield _tables(result)
+
+
+def _parts(result: "ProcessResult") -> Section:
+    worst = worst_elements(result.envelopes, 1)
+    return Section(
+        id="parts",
+        title="What the parts see",
+        text="Extremes of element forces and stresses in the direct transient, "
+        "increments to steady flight: for each type and quantity the element that sees "
+        "most. All elements: results.h5, group envelope; the worst ten: "
+        "worst_elements.csv. Columns and units are Nastran's and the deck's.",
+        blocks=[table_block(worst, _WORST, {"value": ".4g", "time": ".3f"})],
+    )
 
 
 def _accelerations(result: "ProcessResult") -> Section:

@@ -70,7 +70,10 @@ def read_executive(lines: Iterable[Line]) -> Executive:
                 f"{line.file}:{line.number}: SOL {name}: expected a number or a name "
                 f"such as SEMODES{nearest(name, list(SOLUTIONS))}"
             )
-    if dmap or missing:
+    result.notices += [
+        f"{text}: no such file; read as DMAP, without effect" for text in missing
+    ]
+    if dmap:
         result.notices.append(
             "DMAP statements of the executive control are not executed"
         )

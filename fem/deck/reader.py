@@ -179,7 +179,10 @@ def _set_aside(
     if unused:
         notices.append(f"cards without effect here: {', '.join(unused)}")
     if unsupported:
-        problems.append(f"to go on without them: --ignore {','.join(unsupported)}")
+        problems.append(
+            f"to go on without them: --ignore {','.join(unsupported)} "
+            "of python -m fem, or airframe.ignore of a case"
+        )
     return ignored
 
 

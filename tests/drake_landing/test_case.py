@@ -81,7 +81,12 @@ def test_selections(text: str, kind: str, value: float) -> None:
         ("1.8288", "fast", 5, ["found 'fast'", "number"]),
         ("1.8288", ".nan", 5, ["found nan", "finite"]),
         ("model: con", "model: cone", 3, ["found 'cone'", "did you mean 'con'"]),
-        ("model: con", "select: count 1", 2, ["either `model`", "or `deck`"]),
+        (
+            "model: con",
+            "select: count 1",
+            2,
+            ["one of `model`", "`deck`", "`matrices`"],
+        ),
         ("model: con", "model: con\n  select: 7", 4, ["found 7", "count N"]),
         ("name: small", "name: a/b", 1, ["found 'a/b'"]),
         ("name: small", "nam: small", 1, ["name: missing"]),

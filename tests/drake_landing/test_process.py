@@ -96,6 +96,7 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
     assert {path.name for path in folder.iterdir()} == {
         *("results.h5", "report.html", "landing.html", "landing_sol109.bdf"),
         *("comparison.csv", "gears.csv", "attachment_loads.csv", "tyres.csv"),
+        "worst_elements.csv",
         *("struts.csv", "accelerations_multibody.csv", "accelerations_transient.csv"),
     }
     with h5py.File(folder / "results.h5") as file:
@@ -236,3 +237,20 @@ def test_written_deck_gives_the_same_accelerations(
             found = at["acceleration"][:, grids.index(grid), :3] @ R_BD.T
             largest = np.abs(table.to_numpy()).max()
             assert np.abs(found - table.to_numpy()).max() < 1e-6 * largest
+
+
+def test_extremes_of_all_elements_are_kept(result: ProcessResult, folder: Path) -> None:
+    """The envelope of an element bounds what its worst row says."""
+    worst = pd.read_csv(folder / "worst_elements.csv")
+    assert list(worst.columns) == [
+        *("result", "type", "column", "element", "value", "time"),
+    ]
+    row = worst[(worst["result"] == "force") & (worst["column"] == "axial")].iloc[0]
+    with h5py.File(folder / "results.h5") as file:
+        group = file[f"envelope/element_force/{row['type']}"]
+        column = list(group.attrs["columns"]).index("axial")
+        at = list(group["id"]).index(row["element"])
+        largest = max(abs(group["min"][:, column].min()), group["max"][:, column].max())
+        extremes = group["min"][at, column], group["max"][at, column]
+    assert max(map(abs, extremes)) == largest
+    assert abs(row["value"]) == pytest.approx(largest, rel=1e-8)

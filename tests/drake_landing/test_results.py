@@ -90,6 +90,7 @@ def test_results_file_reads_back(
         history=history,
         loads=history.attachment_loads(),
         response={"tail": table(("x", "y", "z"))},
+        envelopes=(),
         comparison=comparison,
         gears=gear_peaks("r", history),
     )

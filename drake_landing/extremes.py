@@ -1,0 +1,59 @@
+"""Extremes of element results during a landing: what the parts see at worst."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from fem.envelope import Envelope
+from fem.recovery import element_tables
+from fem.structure import Structure
+
+KINDS = ("force", "stress")
+
+
+def element_envelopes(structure: Structure) -> list[Envelope]:
+    """One observer per table of element forces and of stresses, all elements.
+
+    They are named `envelope/element_<kind>` for the result file.
+    """
+    return [
+        Envelope(table, structure.elimination.T, f"envelope/element_{kind}")
+        for kind in KINDS
+        for table in element_tables(structure.points, structure.blocks, kind)
+    ]
+
+
+def worst_elements(envelopes: Sequence[Envelope], count: int = 5) -> pd.DataFrame:
+    """The elements with the largest value of each column.
+
+    Returns:
+        Rows `result` (force or stress), `type`, `column`, `element`, `value` (the
+        extreme of larger magnitude, units of the deck), `time` (s); at most `count` per
+        type and column, columns that stay zero left out.
+    """
+    rows = []
+    for envelope in envelopes:
+        low, high = envelope.smallest, envelope.largest
+        value = np.where(np.abs(low) > np.abs(high), low, high)
+        time = np.where(
+            np.abs(low) > np.abs(high),
+            envelope.time_of_smallest,
+            envelope.time_of_largest,
+        )
+        for c, column in enumerate(envelope.table.columns):
+            order = np.argsort(-np.abs(value[:, c]), kind="stable")[:count]
+            rows += [
+                {
+                    "result": envelope.name.rsplit("_", 1)[-1],
+                    "type": envelope.table.table,
+                    "column": column,
+                    "element": int(envelope.table.id[e]),
+                    "value": value[e, c],
+                    "time": time[e, c],
+                }
+                for e in order
+                if value[e, c]
+            ]
+    columns = ["result", "type", "column", "element", "value", "time"]
+    return pd.DataFrame(rows, columns=columns)
