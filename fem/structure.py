@@ -153,7 +153,7 @@ class Structure:
             keep = ~np.isin(elimination.f, found.dof)
             elimination = elimination.with_fixed(found.dof)
             reduced = sp.csr_matrix(reduced[keep][:, keep])
-        if not reduced.shape[0]:
+        if not len(elimination.f):
             raise InputError(
                 f"no free freedom is left: {len(found.dof)} of "
                 f"{len(elimination.f) + len(found.dof)} have no stiffness (AUTOSPC), "
