@@ -163,20 +163,23 @@ class Attachment(LeafSystem):
         """(m,) loads on the fittings along the rows of the gap."""
 
     def _stored_energy(self, gap: Gap) -> float:
+        if gap.rows is None:  # held rigidly, without stays
+            return 0.0
         return 0.5 * float((self._pattern.stiffness * gap.gap**2).sum())
 
     def _power_loss(self, gap: Gap) -> float:
+        if gap.rows is None:
+            return 0.0
         return float((self._pattern.damping * gap.rate**2).sum())
 
     def _calc_gap(self, context, value) -> None:
         state, pose = self._state.Eval(context), self._pose.Eval(context)
         velocity = self._velocity.Eval(context)
-        gap, rate, R_WF = kernels.fitting_gaps(
+        points, gap, rate, R_WF = kernels.fitting_gaps(
             state, self._positions, self._velocities, pose, velocity
         )
-        points = np.stack([gap, rate], axis=1)
         if self._pattern.plain:
-            value.set_value(Gap(points, gap.ravel(), rate.ravel(), None))
+            value.set_value(Gap(points, gap, rate, None))
             return
         six, three = np.arange(6), np.arange(4, 7)
         rows = self._pattern.rows(
@@ -294,23 +297,40 @@ class RigidAttachment(Attachment):
         plant_context = self._context.Eval(context)
         # The velocities of a fitting on its floating joint are its spatial velocity in
         # W: J picks rows, and no velocity-dependent acceleration arises.
-        matrix, free = kernels.fitting_response(
+        fittings = (
             self._plant.CalcMassMatrix(plant_context),
             self._free_force(context, plant_context),
             self._rows,
             self._blocks,
         )
-        k, held = 6 * self._k, gap.rows
-        compliance = self._compliance.Eval(context).reshape(k, k)
-        wanted = self._acceleration.Eval(context)
-        if held is not None:
-            matrix = held.on_fitting @ matrix @ held.on_fitting.T
-            free = held.on_fitting @ free
-            compliance = held.on_node @ compliance @ held.on_node.T
-            wanted = held.on_node @ wanted - held.bias
-        stabilised = 2.0 * self._alpha * gap.rate + self._beta**2 * gap.gap
-        matrix = matrix + compliance
-        wanted = wanted - free - stabilised
+        compliance = self._compliance.Eval(context)
+        acceleration = self._acceleration.Eval(context)
+        if gap.rows is None:
+            return kernels.plain_load(
+                *fittings,
+                compliance,
+                acceleration,
+                gap.gap,
+                gap.rate,
+                self._alpha,
+                self._beta,
+            )
+        return self._general_load(gap, gap.rows, fittings, compliance, acceleration)
+
+    def _general_load(
+        self,
+        gap: Gap,
+        held: Rows,
+        fittings: tuple,
+        compliance: Float64,
+        acceleration: Float64,
+    ) -> Float64:
+        response, free = kernels.fitting_response(*fittings)
+        k = 6 * self._k
+        matrix = held.on_fitting @ response @ held.on_fitting.T
+        matrix += held.on_node @ compliance.reshape(k, k) @ held.on_node.T
+        wanted = held.on_node @ acceleration - held.bias - held.on_fitting @ free
+        wanted -= 2.0 * self._alpha * gap.rate + self._beta**2 * gap.gap
         rigid = self._rigid
         if rigid.all():
             return kernels.solve_positive(matrix, wanted)

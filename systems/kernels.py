@@ -454,7 +454,7 @@ def fitting_gaps(
     velocities: Int64,
     pose: Float64,
     velocity: Float64,
-) -> tuple[Float64, Float64, Float64]:
+) -> tuple[Float64, Float64, Float64, Float64]:
     """Fittings relative to nodes.
 
     Args:
@@ -464,10 +464,12 @@ def fitting_gaps(
         pose, velocity: (12 k,), (6 k,) of the nodes.
 
     Returns:
-        (k, 6) rotation and translation; (k, 6) their rates; (k, 3, 3) R_WF.
+        (k, 2, 6) rotation and translation, and their rates; (6 k,) and (6 k,) the same,
+        apart; (k, 3, 3) R_WF.
     """
     k = len(positions)
     gap, rate, turns = np.empty((k, 6)), np.empty((k, 6)), np.empty((k, 3, 3))
+    both = np.empty((k, 2, 6))
     relative = np.empty((3, 3))
     for i in range(k):
         q, v = positions[i], velocities[i]
@@ -485,7 +487,8 @@ def fitting_gaps(
             gap[i, 3 + c] = state[q + 4 + c] - pose[12 * i + 9 + c]
         for c in range(6):
             rate[i, c] = state[v + c] - velocity[6 * i + c]
-    return gap, rate, turns
+        both[i, 0], both[i, 1] = gap[i], rate[i]
+    return both, gap.ravel(), rate.ravel(), turns
 
 
 @compiled
@@ -559,3 +562,35 @@ def solve_positive(A: Float64, b: Float64) -> Float64:
     _factorise(L, 0, len(b))
     _solve(L, x, 0, len(b))
     return x
+
+
+@compiled
+def plain_load(
+    mass: Float64,
+    force: Float64,
+    rows: Int64,
+    starts: Int64,
+    compliance: Float64,
+    acceleration: Float64,
+    gap: Float64,
+    rate: Float64,
+    alpha: float,
+    beta: float,
+) -> Float64:
+    """(m,) loads on fittings, each held rigidly at one node; see `attachment`.
+
+    Args:
+        mass, force, rows, starts: see `fitting_response`.
+        compliance: (m²,) of the nodes.
+        acceleration: (m,) of the nodes without the loads.
+        gap, rate: (m,).
+        alpha, beta: Baumgarte's rates, 1/s.
+    """
+    A, wanted = fitting_response(mass, force, rows, starts)
+    m = len(wanted)
+    for i in range(m):
+        for j in range(m):
+            A[i, j] += compliance[m * i + j]
+        stabilised = 2.0 * alpha * rate[i] + beta * beta * gap[i]
+        wanted[i] = acceleration[i] - wanted[i] - stabilised
+    return solve_positive(A, wanted)

@@ -21,10 +21,12 @@ from dataclasses import dataclass
 
 from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
+from pydrake.common.value import Value
 from pydrake.systems.framework import (
     BasicVector_,
     LeafSystem_,
     NumericParameterIndex,
+    ValueProducer,
 )
 from pydrake.systems.scalar_conversion import TemplateSystem
 
@@ -260,11 +262,18 @@ def ShockAbsorber_(T):
             parameter = self.numeric_parameter_ticket(self._tunables)
             state = {self._state.ticket(), parameter}
             everything = {*state, self._side_load.ticket()}
+            # The law is evaluated once for force, components and power.
+            self._parts = self.DeclareCacheEntry(
+                "law",
+                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_parts),
+                everything,
+            )
+            law = {self._parts.ticket()}
             for name, size, calc, tickets in (
-                ("force", 1, self._calc_force, everything),
+                ("force", 1, self._calc_force, law),
                 ("energy", 1, self._calc_energy, state),
-                ("dissipated_power", 1, self._calc_dissipated_power, everything),
-                ("components", 4, self._calc_components, everything),
+                ("dissipated_power", 1, self._calc_dissipated_power, law),
+                ("components", 4, self._calc_components, law),
             ):
                 self.DeclareVectorOutputPort(
                     name, size, calc, prerequisites_of_calc=tickets
@@ -293,20 +302,25 @@ def ShockAbsorber_(T):
                 side_load = self._side_load.Eval(context).tolist()[0]
             return s, rate, side_load, p
 
+        def _calc_parts(self, context, value):
+            """Rate, and the parts of the force."""
+            inputs = self._inputs(context)
+            value.set_value((inputs[1], *self._law.parts(*inputs)))
+
         def _calc_force(self, context, output):
-            output.SetAtIndex(0, self._law.force(*self._inputs(context)))
+            _, gas, damping, friction, elastic, damper = self._parts.Eval(context)
+            output.SetAtIndex(0, (gas + elastic) + damping + friction + damper)
 
         def _calc_energy(self, context, output):
             s, _, _, p = self._inputs(context)
             output.SetAtIndex(0, self._law.energy(s, p))
 
         def _calc_dissipated_power(self, context, output):
-            output.SetAtIndex(0, self._law.dissipated_power(*self._inputs(context)))
+            rate, _, damping, friction, _, damper = self._parts.Eval(context)
+            output.SetAtIndex(0, (damping + friction + damper) * rate)
 
         def _calc_components(self, context, output):
-            gas, damping, friction, elastic, damper = self._law.parts(
-                *self._inputs(context)
-            )
+            _, gas, damping, friction, elastic, damper = self._parts.Eval(context)
             output.SetFromVector([gas, damping, friction, elastic + damper])
 
         def _calc_gas_pressure(self, context, output):
