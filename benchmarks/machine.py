@@ -1,10 +1,10 @@
 """What the machine gives: read bandwidth of its memory, memory in use, its kind."""
 
 import os
+import platform
 import resource
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from pathlib import Path
 from time import perf_counter, process_time
 
 import numpy as np
@@ -49,11 +49,7 @@ def load() -> float:
 
 
 def description() -> str:
-    """Kind of processor, cores, memory."""
-    model = "unknown processor"
-    info = Path("/proc/cpuinfo")
-    if info.exists():
-        names = [x for x in info.read_text().splitlines() if x.startswith("model name")]
-        model = names[0].split(":")[1].strip() if names else model
+    """Kind of machine, in general words."""
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") / 2**30
-    return f"{os.cpu_count()} cores ({model}), {memory:.0f} GiB"
+    kind = platform.machine() or "unknown"
+    return f"a machine ({kind}) with {os.cpu_count()} cores and {memory:.0f} GiB"
