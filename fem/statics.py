@@ -40,6 +40,8 @@ def solve_static(
     Raises:
         SingularMatrixError: the structure can move without strain energy.
     """
+    if not len(load):  # every freedom is constrained
+        return np.zeros_like(load)
     with factorize(stiffness, solver=solver, threads=threads) as factor:
         check_regular(stiffness, factor)
         return factor.solve(load)

@@ -153,12 +153,12 @@ class Structure:
             keep = ~np.isin(elimination.f, found.dof)
             elimination = elimination.with_fixed(found.dof)
             reduced = sp.csr_matrix(reduced[keep][:, keep])
-        if not len(elimination.f):
+        # All of it constrained by the user is fine: enforced motion, loads on elements.
+        if not len(elimination.f) and len(found.dof):
             raise InputError(
-                f"no free freedom is left: {len(found.dof)} of "
-                f"{len(elimination.f) + len(found.dof)} have no stiffness (AUTOSPC), "
-                "the others are constrained; expected elements that hold the grids, "
-                "with a modulus above 0"
+                f"no free freedom is left: {len(found.dof)} have no stiffness "
+                "(AUTOSPC), the others are constrained; expected elements that hold "
+                "the grids, with a modulus above 0"
             )
         return elimination, reduced, found
 

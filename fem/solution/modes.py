@@ -13,7 +13,7 @@ from fem.linear_solver import SingularMatrixError
 from fem.modes import Modes, ModesError, normal_modes
 from fem.results import ResultFile
 from fem.solution.options import Options
-from fem.solution.requests import ids_of
+from fem.solution.requests import check_free, ids_of
 from fem.solution.requests import wanted as asked
 from fem.solution.static import write_element_results, write_grid_forces
 from fem.structure import Structure
@@ -44,6 +44,7 @@ def solve_modes(
 
 def modes_of(model: Structure, options: Options) -> tuple[AnalysisModel, Modes]:
     """Modes that the METHOD of a structure's subcase asks for."""
+    check_free(model, 103)
     card = eigrl(model.deck, model.subcase)
     count, band = request(card)
     report = options.console.progress("modes")

@@ -9,6 +9,7 @@ from fem.deck.case_control import Selection, Subcase
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
 from fem.errors import InputError
+from fem.structure import Structure
 
 ELEMENT_RESULTS: tuple[tuple[str, Kind], ...] = (
     ("FORCE", "force"),
@@ -85,3 +86,16 @@ _NEEDED = {
         ("TSTEP", ("TSTEP",), "the time steps"),
     ),
 }
+
+
+def check_free(structure: Structure, number: int) -> None:
+    """Refuse dynamics of a structure that cannot move.
+
+    Raises:
+        InputError: every freedom is constrained.
+    """
+    if not structure.size:
+        raise InputError(
+            f"{structure.deck.path}: subcase {structure.subcase.id}: SOL {number}: "
+            "every freedom is constrained; nothing can move"
+        )

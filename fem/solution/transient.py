@@ -32,7 +32,13 @@ from fem.recovery import ElementTable, element_tables, loaded_bar_tables
 from fem.results import PointLayout, ResultFile
 from fem.solution.modes import mode_table, modes_of
 from fem.solution.options import Options
-from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
+from fem.solution.requests import (
+    ELEMENT_RESULTS,
+    check_free,
+    detail_of,
+    ids_of,
+    wanted,
+)
 from fem.sparse_products import shape_of
 from fem.structure import Structure
 from fem.table_response import TableResponse
@@ -80,6 +86,7 @@ def _is_modal(model: Structure) -> bool:
 def _direct(
     model: Structure, cases: list[Subcase], results: ResultFile, options: Options
 ) -> None:
+    check_free(model, 109)
     steps = time_steps(model.deck, model.subcase)
     inputs = _inputs(model, cases)
     load_g = inputs.load

@@ -12,6 +12,7 @@ BAR = (
 )
 OTHER = "GRID,14,,3.\nGRID,15,,4.\nCBAR,3,1,14,15,0.,1.,0.\n"
 INERTIA = "EIGRL,1,,,3\nCONM2,9,14,,1.,,,,\n,1.,,1.,,,1.\n"
+HELD = "SPC1,1,123456,2,3\nEIGRL,1,,,3\n"
 STEP = "TSTEP,4,10,.001\nTLOAD1,1,1,,,2\nTABLED1,2\n,0.,0.,1.,1.,ENDT\n"
 
 
@@ -45,6 +46,8 @@ def say(tmp_path, capsys):
         (109, "SPC=1\nDLOAD=1", BAR + STEP, "needs TSTEP in the case control"),
         (112, "SPC=1\nDLOAD=1\nTSTEP=4", BAR + STEP, "SOL 112 needs METHOD"),
         (103, "SPC=1\nMETHOD=1", BAR.replace("2700.", "") + "EIGRL,1,,,3\n", "no mass"),
+        (103, "SPC=1\nMETHOD=1", BAR + HELD, "nothing can move"),
+        (109, "SPC=1\nDLOAD=1\nTSTEP=4", BAR + STEP + HELD, "nothing can move"),
         (101, "LOAD=1\nTEMP(LOAD)=3", BAR, "no thermal loads"),
         (101, "LOAD=1", BAR + "MATT1,1,7\n", "do not depend on temperature"),
         (101, "LOAD=1", BAR + "CBARR,1,7\n", "did you mean 'CBAR'?"),
@@ -113,3 +116,13 @@ def test_plain_progress_speaks_after_a_while_and_ever_less_often():
         progress(done, 1000)
     assert lines[0].startswith("steps: 51 of 1000, 3 min 1")
     assert 3 <= len(lines) <= 6
+
+
+def test_all_freedoms_may_be_enforced(say, tmp_path):
+    """A bar stretched by 1 mm: E A u / L in its force; nothing is left to solve."""
+    bulk = BAR + HELD + "SPCD,1,3,1,1.-3\nSPCD,1,2,1,1.-3\n"
+    status, text = say(101, "LOAD=1\nSPC=1\nFORCE=ALL", bulk)
+    assert status == 0, text
+    with h5py.File(tmp_path / "model.h5") as file:
+        axial = file["static/1/element_force/CBAR/value"][:, 6]
+    assert axial == pytest.approx([7e10 * 1e-3 * 1e-3, 0.0])
