@@ -235,6 +235,12 @@ class Simulation(Section):
         "error control of the integrator", "in units of the state", 1e-4, gt=0, le=1e-2
     )
     max_step: float = number("largest step", "s", 5e-3, gt=0, le=0.1)
+    slow_modes_above: float | None = Field(
+        default=None,
+        gt=0,
+        description="Hz; faster modes follow the loads by flexibility and damping "
+        "alone, which allows far larger steps; default: none do",
+    )
     clearance: float = number(
         "height of the lowest tyre over the runway at start", "m", 5e-3, gt=0, le=1
     )

@@ -23,7 +23,7 @@ from drake_landing.extremes import element_envelopes, worst_elements
 from drake_landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.history import POINT, LandingHistory, gear_peaks
 from drake_landing.inputs import Aircraft, prepare_aircraft
-from drake_landing.landing import build_landing, fly
+from drake_landing.landing import build_landing, fast_mode_notices, fly
 from drake_landing.progress import Reporter, Silent
 from drake_landing.response import transient_response
 from drake_landing.results import write_csv, write_history_csv, write_results
@@ -87,7 +87,12 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
     stages.begin(f"landing (elastic modes in the multibody model: {airframe.body.n})")
     points = aircraft.monitoring
     landing = build_landing(
-        airframe.body, aircraft.gears, points, R_AB, aircraft.scenario
+        airframe.body,
+        aircraft.gears,
+        points,
+        R_AB,
+        aircraft.scenario,
+        case.simulation.slow_modes_above,
     )
     history = fly(
         landing, aircraft.scenario, case.simulation, points, R_AB, stages.progress
@@ -135,7 +140,11 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
         envelopes=tuple(envelopes),
         comparison=comparison,
         gears=gear_peaks(case.name, history),
-        notices=(*aircraft.notices, *airframe.notices),
+        notices=(
+            *aircraft.notices,
+            *airframe.notices,
+            *fast_mode_notices(airframe.body, case.simulation),
+        ),
         seconds=stages.seconds,
     )
     stages.begin("writing results and report")

@@ -120,7 +120,10 @@ def fly_all(
 def _fly(task: LandingTask) -> Arrays:
     case, aircraft = task.case, task.aircraft
     R_AB, points = rotation_AB(case.airframe.axes), aircraft.monitoring
-    landing = build_landing(task.body, aircraft.gears, points, R_AB, case.scenario)
+    slow = case.simulation.slow_modes_above
+    landing = build_landing(
+        task.body, aircraft.gears, points, R_AB, case.scenario, slow
+    )
     history = fly(landing, case.scenario, case.simulation, points, R_AB)
     loads = history.attachment_loads().resampled(
         case.transient.step, case.transient_duration

@@ -1,5 +1,6 @@
 """The landing run on a hand-made modal body: momentum, energy, axes, messages."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,12 @@ from drake_landing.axes import gear_in_A, rotation_AB
 from drake_landing.case import Axes, Case, Scenario, Simulation
 from drake_landing.cases_io import load_case
 from drake_landing.history import LandingHistory, gear_peaks
-from drake_landing.landing import LandingError, build_landing, fly
+from drake_landing.landing import (
+    LandingError,
+    build_landing,
+    fast_mode_notices,
+    fly,
+)
 from systems.modal_body import ModalBody
 
 POINTS = {"nose": 1, "tail": 9}
@@ -130,3 +136,21 @@ def test_a_simulation_that_breaks_down_says_when(
     landing = build_landing(body, case.gears, POINTS, np.eye(3), case.scenario)
     with pytest.raises(LandingError, match=r"stopped at 0\.0000 s of 0\.4 s"):
         fly(landing, case.scenario, case.simulation, POINTS, np.eye(3))
+
+
+def test_fast_modes_are_told_and_can_be_slowed(case: Case, body: ModalBody) -> None:
+    fast = replace(
+        body, frequency=np.array([700.0]), modal_damping=body.modal_damping * 1e5
+    )
+    assert fast_mode_notices(body, Simulation()) == ()
+    assert "slow_modes_above" in fast_mode_notices(fast, Simulation())[0]
+    simulation = Simulation(duration=0.02, slow_modes_above=100.0)
+    assert "1 of 1 modes lie above 100 Hz" in fast_mode_notices(fast, simulation)[0]
+    steps = []
+    for bound in (None, 100.0):
+        landing = build_landing(
+            fast, case.gears, POINTS, np.eye(3), case.scenario, bound
+        )
+        history = fly(landing, case.scenario, simulation, POINTS, np.eye(3))
+        steps.append(history.figures["steps"])
+    assert steps[1] < 0.5 * steps[0]
