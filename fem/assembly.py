@@ -47,6 +47,7 @@ def assemble(
     coupled: bool = False,
     wtmass: float = 1.0,
     direct: DirectMatrices = NONE,
+    factors: tuple[float, float, float] = (1.0, 1.0, 1.0),
 ) -> Matrices:
     """All matrices of a model.
 
@@ -57,6 +58,8 @@ def assemble(
         wtmass: factor on the mass of elements (PARAM WTMASS); direct input is not
             multiplied, as Nastran has it.
         direct: matrices of DMIG.
+        factors: on K, M and B of the elements (PARAM CK1, CM1, CB1); results of
+            elements do not know them.
     """
     stiffness, structural = _Sum(points.size), _Sum(points.size)
     mass, damping = _Sum(points.size), _Sum(points.size)
@@ -75,10 +78,11 @@ def assemble(
         b = block.damping()
         if b is not None:
             damping.add(_triplets(points, block, b))
+    k1, m1, b1 = factors
     return Matrices(
-        stiffness=_with(stiffness.symmetric(), direct.stiffness),
-        mass=_with(mass.symmetric(), direct.mass),
-        damping=_with(damping.symmetric(), direct.damping),
+        stiffness=_with(stiffness.symmetric(), k1, direct.stiffness),
+        mass=_with(mass.symmetric(), m1, direct.mass),
+        damping=_with(damping.symmetric(), b1, direct.damping),
         structural_damping=structural.symmetric(),
     )
 
@@ -167,7 +171,11 @@ class _Sum:
         self._parts, self._waiting = [], 0
 
 
-def _with(matrix: sp.csr_matrix, direct: sp.csr_matrix | None) -> sp.csr_matrix:
+def _with(
+    matrix: sp.csr_matrix, factor: float, direct: sp.csr_matrix | None
+) -> sp.csr_matrix:
+    if factor != 1.0:
+        matrix = sp.csr_matrix(factor * matrix)
     if direct is None:
         return matrix
     return sp.csr_matrix(matrix + direct)

@@ -117,6 +117,11 @@ class Structure:
             coupled=_number(self.deck, "COUPMASS") > 0,
             wtmass=_number(self.deck, "WTMASS"),
             direct=direct,
+            factors=(
+                _number(self.deck, "CK1"),
+                _number(self.deck, "CM1"),
+                _number(self.deck, "CB1"),
+            ),
         )
 
     @cached_property

@@ -109,6 +109,14 @@ _REFUSED = frozenset(
     REPCASE TEMPERATURE TEMP TFL TRIM TSTRU TSTEPNL A2GG
     """.split()
 )
+_DIRECT = {
+    "K2PP": "K2GG adds a symmetric matrix",
+    "M2PP": "M2GG adds a symmetric matrix",
+    "B2PP": "B2GG adds a symmetric matrix",
+    "P2G": "loads are given by load cards",
+    "STATSUB": "there is no stiffness from a preload",
+    "SUPORT1": "SUPORT holds in all subcases",
+}
 # (Initial temperatures alone change nothing: materials are constant.)
 _WHY = {
     "TEMP": ": no thermal loads, no materials that depend on temperature; "
@@ -167,6 +175,11 @@ def read_case_control(lines: Iterable[Line], *, refuse: bool = True) -> CaseCont
             elif name[:4] in _TITLES:
                 text = statement.split("=", 1)[-1].strip()
                 current = _set(current, _TITLES[name[:4]], text)
+            elif name in _DIRECT and refuse and value:
+                raise ValueError(
+                    f"{name} is not supported; {_DIRECT[name]}; --ignore CASE goes on "
+                    "without it"
+                )
             elif name in _NUMBERS:
                 current = _set(current, _NUMBERS[name], _number(value))
             elif name in _NAMES:

@@ -1,5 +1,7 @@
 """SOL 103: normal modes as EIGRL asks for them."""
 
+from dataclasses import replace
+
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
@@ -104,6 +106,32 @@ def request(card: pd.Series) -> tuple[int | None, tuple[float | None, float | No
         # As Nastran: without a limit and a count, the lowest mode is meant.
         count = 1
     return count, (low, high)
+
+
+def retained_modes(deck: Deck, modes: Modes) -> Modes:
+    """Modes of a modal solution: PARAM LMODES, else those from LFREQ to HFREQ.
+
+    Raises:
+        InputError: none is left.
+    """
+    lowest = int(deck.param("LMODES"))
+    hertz = modes.frequency_hz
+    if lowest > 0:
+        keep = np.arange(modes.count) < lowest
+    else:
+        low, high = float(deck.param("LFREQ")), float(deck.param("HFREQ"))
+        keep = (hertz >= low) & (hertz <= high)
+    if not keep.any():
+        raise InputError(
+            f"{deck.path}: PARAM LFREQ, HFREQ or LMODES leave none of {modes.count} "
+            "modes"
+        )
+    return replace(
+        modes,
+        frequency_hz=hertz[keep],
+        shape=np.asfortranarray(modes.shape[:, keep]),
+        rigid=int(np.sum(keep[: modes.rigid])),
+    )
 
 
 def scaled_shapes(modes: Modes, shapes: Float64, norm: str) -> Float64:

@@ -30,7 +30,7 @@ from fem.modal_transient import modal_transient, residual_vectors
 from fem.observation import Observer
 from fem.recovery import ElementTable, element_tables, loaded_bar_tables
 from fem.results import PointLayout, ResultFile
-from fem.solution.modes import mode_table, modes_of
+from fem.solution.modes import mode_table, modes_of, retained_modes
 from fem.solution.options import Options
 from fem.solution.requests import (
     ELEMENT_RESULTS,
@@ -123,7 +123,10 @@ def _modal(
     model: Structure, cases: list[Subcase], results: ResultFile, options: Options
 ) -> None:
     steps = time_steps(model.deck, model.subcase)
-    reduced, modes = modes_of(model, options)
+    reduced, found = modes_of(model, options)
+    modes = retained_modes(model.deck, found)
+    if modes.count < found.count:
+        options.console.say(f"{modes.count} of {found.count} modes are used")
     inputs = _inputs(model, cases)
     load_g = inputs.load
     load = TransientLoad(reduced.load(load_g.pattern), load_g.evaluate)

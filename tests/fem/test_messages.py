@@ -126,3 +126,24 @@ def test_all_freedoms_may_be_enforced(say, tmp_path):
     with h5py.File(tmp_path / "model.h5") as file:
         axial = file["static/1/element_force/CBAR/value"][:, 6]
     assert axial == pytest.approx([7e10 * 1e-3 * 1e-3, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("params", "words"),
+    [
+        ("PARAM,LMODES,2\n", "2 of 5 modes are used"),
+        ("PARAM,HFREQ,50.\n", "of 5 modes are used"),
+        ("PARAM,LFREQ,1.+6\n", "leave none of 5 modes"),
+    ],
+)
+def test_modes_of_a_modal_transient_may_be_limited(say, params, words):
+    bulk = BAR + STEP + params + "EIGRL,1,,,5\n"
+    _, text = say(112, "SPC=1\nDLOAD=1\nTSTEP=4\nMETHOD=1", bulk)
+    assert words in text
+
+
+@pytest.mark.parametrize("command", ["K2PP=STIF", "P2G=LOAD", "STATSUB=1"])
+def test_commands_that_would_change_the_answer_are_refused(say, command):
+    status, text = say(101, f"SPC=1\nLOAD=1\n{command}", BAR)
+    assert status == 2
+    assert "is not supported" in text

@@ -142,3 +142,16 @@ def test_import_is_quick_and_every_public_name_is_there():
     subprocess.run([sys.executable, "-c", code], check=True)
     with pytest.raises(AttributeError, match="no attribute"):
         fem.nonsense  # noqa: B018
+
+
+def test_factors_of_parameters_on_matrices(tmp_path):
+    """PARAM CK1, CM1 and CB1 multiply what elements give."""
+    bulk = (
+        "SOL 101\nCEND\nBEGIN BULK\n{}SPOINT,1\nCELAS4,1,3.,1\nCMASS4,2,5.,1\n"
+        "CDAMP4,3,7.,1\nENDDATA\n"
+    )
+    path = tmp_path / "a.bdf"
+    path.write_text(bulk.format("PARAM,CK1,2.\nPARAM,CM1,3.\nPARAM,CB1,4.\n"))
+    m = fem.Structure.from_deck(fem.read_deck(path)).matrices
+    found = [x.toarray().item() for x in (m.stiffness, m.mass, m.damping)]
+    assert found == [6.0, 15.0, 28.0]
