@@ -1,7 +1,8 @@
 """What has to be known of a landing gear: validated data, as written in a case file.
 
 All positions and inertias are in the airframe frame B (x aft, y to starboard, z up),
-gear extended, aircraft undeformed. SI units except angles in degrees. Three kinds:
+gear extended and not steered, aircraft undeformed. SI units except angles in degrees.
+Three kinds:
 
     telescopic  a piston with its axle slides in the fitting along the strut axis
     levered     an arm with the axle pivots on the fitting; the shock absorber spans
@@ -57,6 +58,14 @@ class LandingGear(Data):
         min_length=1,
         description="wheel centres along the axle from its middle, m, starboard > 0, "
         "ascending, e.g. [-0.465, 0.465] for a twin",
+    )
+    steering_deg: float = Field(
+        default=0.0,
+        ge=-80,
+        le=80,
+        description="fixed angle by which all below the fitting is turned, wheels to "
+        "starboard > 0: about the strut axis, of a levered gear (with its shock "
+        "absorber) about the up axis through the pivot",
     )
     fitting: RigidPart = Field(description="sprung part: main fitting, stays, doors")
     wheel: Wheel
@@ -143,12 +152,6 @@ class TelescopicGear(LandingGear):
         lt=45,
         description="angle of the strut axis from the up axis, about the lateral axis; "
         "positive: the lower end lies further forward",
-    )
-    steering_deg: float = Field(
-        default=0.0,
-        ge=-80,
-        le=80,
-        description="fixed angle of the axle about the strut axis, to starboard > 0",
     )
     piston: RigidPart = Field(description="piston, axle, brake stators; no wheels")
 

@@ -7,13 +7,14 @@ kind of gear, and wheels on revolute joints about their axle:
     levered     fitting =revolute= arm =revolute= wheels
     bogie       fitting =prismatic= piston =revolute= beam =revolute= wheels
 
-All body frames are parallel to the airframe frame B in the extended gear, but those of
-steered wheels: the fitting's origin is the attachment point, that of an arm or beam its
-pivot, a piston's the middle of the axle or the beam's pivot, a wheel's its centre.
+All body frames are parallel to the airframe frame B in the extended gear, but that all
+below the fitting of a steered gear are turned by its angle: the fitting's origin is the
+attachment point, that of an arm or beam its pivot, a piston's the middle of the axle or
+the beam's pivot, a wheel's its centre.
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import singledispatch
 from typing import cast
 
@@ -40,6 +41,7 @@ from drake_landing.gear import (
     TelescopicGear,
 )
 from systems.lever_strut import LeverStrut
+from systems.rotations import exp
 
 Float64 = npt.NDArray[np.float64]
 
@@ -84,7 +86,6 @@ class _Moving:
     parts: dict[str, RigidBody]
     strut: PrismaticJoint | LeverStrut
     p_BO: Float64
-    R_BO: RotationMatrix = field(default_factory=RotationMatrix)
     pitch: RevoluteJoint | None = None
 
 
@@ -94,21 +95,56 @@ def strut_axis(gear: LandingGear) -> Float64:
     For a levered gear the direction of its extended shock absorber.
     """
     if isinstance(gear, LeveredGear):
-        span = np.subtract(gear.absorber_upper, gear.absorber_lower)
+        ends = [_steered(gear, p) for p in (gear.absorber_upper, gear.absorber_lower)]
+        span = ends[0] - ends[1]
         return span / np.sqrt(span @ span)
-    rake = math.radians(gear.rake_deg) if hasattr(gear, "rake_deg") else 0.0
-    return np.array([math.sin(rake), 0.0, math.cos(rake)])
+    return _raked_axis(gear)
+
+
+def steering(gear: LandingGear) -> RotationMatrix:
+    """Turn of all below the fitting; nose to starboard is clockwise from above."""
+    angle = math.radians(gear.steering_deg)
+    if angle == 0.0:
+        return RotationMatrix()
+    levered = isinstance(gear, LeveredGear)
+    axis = np.array([0.0, 0.0, 1.0]) if levered else _raked_axis(gear)
+    return RotationMatrix(exp(-angle * axis[None])[0])
 
 
 def wheel_centres(gear: LandingGear) -> dict[str, Float64]:
     """Wheel name -> (3,) centre in B (x aft, y starboard), gear extended, m."""
-    turn = _steering(gear).multiply(np.array(_LATERAL))
     places = [
-        np.array(axle) + offset * turn
+        _steered(gear, np.array(axle) + offset * np.array(_LATERAL))
         for axle in gear.axles
         for offset in gear.wheel_offsets
     ]
     return dict(zip(gear.wheel_names, places))
+
+
+def mass_points(gear: LandingGear) -> list[tuple[float, Float64]]:
+    """Mass (kg) and centre of gravity (3,) in B (m) of each body, gear extended."""
+    points = [(gear.fitting.mass, np.array(gear.fitting.cg))]
+    parts = gear.moving_parts.values()
+    points += [(part.mass, _steered(gear, part.cg)) for part in parts]
+    return points + [(gear.wheel.mass, p) for p in wheel_centres(gear).values()]
+
+
+def _raked_axis(gear: LandingGear) -> Float64:
+    rake = math.radians(gear.rake_deg) if hasattr(gear, "rake_deg") else 0.0
+    return np.array([math.sin(rake), 0.0, math.cos(rake)])
+
+
+def _centre(gear: LandingGear) -> Float64:
+    """(3,) in B what the gear is steered about: pivot, or middle of the axle."""
+    if isinstance(gear, LeveredGear | BogieGear):
+        return np.array(gear.pivot)
+    return np.array(gear.axles[0])
+
+
+def _steered(gear: LandingGear, p_B: npt.ArrayLike) -> Float64:
+    """A point below the fitting, where the steering has turned it to."""
+    centre = _centre(gear)
+    return centre + steering(gear).matrix() @ (np.asarray(p_B) - centre)
 
 
 def AddLandingGear(
@@ -136,14 +172,13 @@ def AddLandingGear(
     moving = _add_moving(gear, plant, fitting, attachment)
     carrier = list(moving.parts.values())[-1]
     wheels, spins = {}, {}
-    for name, centre in wheel_centres(gear).items():
+    straight = gear.model_copy(update={"steering_deg": 0.0})
+    for name, centre in wheel_centres(straight).items():
         wheels[name] = plant.AddRigidBody(f"{name}_wheel", _wheel_inertia(gear))
-        X_OW = RigidTransform(moving.R_BO, centre - moving.p_BO)
-        axle = FixedOffsetFrame(f"{name}_axle", carrier.body_frame(), X_OW)
         spins[name] = plant.AddJoint(
             RevoluteJoint(
                 f"{name}_spin",
-                plant.AddFrame(axle),
+                _offset(plant, f"{name}_axle", carrier, centre - moving.p_BO),
                 wheels[name].body_frame(),
                 _LATERAL,
             )
@@ -171,7 +206,7 @@ def _(
 ) -> _Moving:
     axle = np.array(gear.axle)
     piston, strut = _add_piston(plant, gear, gear.piston, axle, fitting, p_BA)
-    return _Moving({"piston": piston}, strut, axle, _steering(gear))
+    return _Moving({"piston": piston}, strut, axle)
 
 
 @_add_moving.register
@@ -183,7 +218,7 @@ def _(
     joint = plant.AddJoint(
         RevoluteJoint(
             f"{gear.name}_pivot",
-            _offset(plant, f"{gear.name}_hinge", fitting, pivot - p_BA),
+            _offset(plant, f"{gear.name}_hinge", fitting, pivot - p_BA, steering(gear)),
             arm.body_frame(),
             _LATERAL,
         )
@@ -231,28 +266,25 @@ def _add_piston(
     strut = plant.AddJoint(
         PrismaticJoint(
             f"{gear.name}_strut",
-            _offset(plant, f"{gear.name}_cylinder", fitting, p_BP - p_BA),
+            _offset(
+                plant, f"{gear.name}_cylinder", fitting, p_BP - p_BA, steering(gear)
+            ),
             piston.body_frame(),
-            strut_axis(gear),
+            _raked_axis(gear),  # turned about itself
         )
     )
     return piston, cast(PrismaticJoint, strut)
 
 
-def _steering(gear: LandingGear) -> RotationMatrix:
-    """Of the wheels about the strut axis; nose to starboard is clockwise from above."""
-    angle = math.radians(gear.steering_deg) if isinstance(gear, TelescopicGear) else 0.0
-    if angle == 0.0:
-        return RotationMatrix()
-    axis = strut_axis(gear)
-    x, y, z = axis
-    K = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    s, c = math.sin(-angle), math.cos(angle)
-    return RotationMatrix(np.eye(3) + s * K + (1.0 - c) * K @ K)
-
-
-def _offset(plant: MultibodyPlant, name: str, body: RigidBody, p: Float64) -> Frame:
-    return plant.AddFrame(FixedOffsetFrame(name, body.body_frame(), RigidTransform(p)))
+def _offset(
+    plant: MultibodyPlant,
+    name: str,
+    body: RigidBody,
+    p: Float64,
+    R: RotationMatrix | None = None,
+) -> Frame:
+    X = RigidTransform(R or RotationMatrix(), p)
+    return plant.AddFrame(FixedOffsetFrame(name, body.body_frame(), X))
 
 
 def _inertia(part: RigidPart, origin: Float64) -> SpatialInertia:

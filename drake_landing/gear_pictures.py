@@ -1,7 +1,8 @@
 """What a landing gear looks like: rods and wheels, fixed to its bodies.
 
-Body frames as `gear_bodies` makes them: parallel to A in the extended gear, the origin
-of the fitting at the attachment node, that of piston, arm or beam at the axle or pivot.
+Body frames as `gear_bodies` makes them: parallel to A in the extended gear, turned where
+it is steered; the origin of the fitting at the attachment node, that of piston, arm or
+beam at the axle or pivot.
 """
 
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.gear import BogieGear, LandingGear, LeveredGear
-from drake_landing.gear_bodies import strut_axis
+from drake_landing.gear_bodies import steering, strut_axis
 
 Float64 = npt.NDArray[np.float64]
 
@@ -82,10 +83,11 @@ def _levered(gear: LeveredGear, attachment: Float64) -> list[Rod]:
     fitting, arm = f"{gear.name}_fitting", f"{gear.name}_arm"
     pivot, axle = np.array(gear.pivot), np.array(gear.axle)
     upper, lower = np.array(gear.absorber_upper), np.array(gear.absorber_lower)
+    turned = pivot + steering(gear).matrix() @ (upper - pivot)
     zero = np.zeros(3)
     return [
         Rod(body=fitting, start=zero, end=pivot - attachment, thickness=1.0),
-        Rod(body=fitting, start=zero, end=upper - attachment, thickness=0.6),
+        Rod(body=fitting, start=zero, end=turned - attachment, thickness=0.6),
         Rod(body=arm, start=zero, end=axle - pivot, thickness=0.9),
         Rod(
             body=arm,

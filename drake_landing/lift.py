@@ -11,7 +11,7 @@ import numpy.typing as npt
 from pydrake.systems.framework import DiagramBuilder
 
 from drake_landing.gear import LandingGear
-from drake_landing.gear_bodies import wheel_centres
+from drake_landing.gear_bodies import mass_points
 from systems.checks import require
 from systems.distributed_load import DistributedLoad, trimmed_shares
 from systems.flexible_airframe import FlexibleAirframe
@@ -76,9 +76,7 @@ def aircraft_mass_centre(
     """Mass (kg) and centre of gravity (3,) in B (m) with all gears, extended."""
     items = [(body.mass, body.p_BG)]
     for gear in gears:
-        parts = [gear.fitting, *gear.moving_parts.values()]
-        items += [(part.mass, np.array(part.cg)) for part in parts]
-        items += [(gear.wheel.mass, p) for p in wheel_centres(gear).values()]
+        items += mass_points(gear)
     mass = sum(m for m, _ in items)
     centre = np.sum([m * p for m, p in items], axis=0) / mass
     return float(mass), centre

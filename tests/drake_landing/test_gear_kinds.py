@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from pydantic import ValidationError
+from pydrake.common.eigen_geometry import AngleAxis
+from pydrake.math import RotationMatrix
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import LinearSpringDamper, MultibodyForces
 from pydrake.systems.framework import DiagramBuilder
@@ -11,7 +13,12 @@ from pydrake.systems.framework import DiagramBuilder
 from drake_landing.diagram import MakeLandingDiagram
 from drake_landing.equilibrium import set_static_equilibrium
 from drake_landing.gear import TelescopicGear, read_gear
-from drake_landing.gear_bodies import AddLandingGear, wheel_centres
+from drake_landing.gear_bodies import (
+    AddLandingGear,
+    mass_points,
+    strut_axis,
+    wheel_centres,
+)
 from drake_landing.gear_systems import AddGearSystems
 from tests.drake_landing.landing_gears import (
     aircraft_gears,
@@ -267,24 +274,90 @@ def test_anti_skid_keeps_the_wheels_turning():
     assert drag["locked"] / load["locked"] < 0.6
 
 
+RAKE = np.radians(9.0)
+NOSE_KINDS = {
+    "telescopic": lambda: changed(aircraft_gears()[0], rake_deg=9.0),
+    "levered": lambda: levered_main("nose"),
+    "bogie": lambda: bogie_main("nose"),
+}
+
+
+@pytest.mark.parametrize("kind", NOSE_KINDS)
 @pytest.mark.parametrize("angle", [5.0, -3.0])
-def test_steered_wheels_slide_by_the_steering_angle(angle):
-    nose, *mains = aircraft_gears()
-    gears = (changed(nose, steering_deg=angle), *mains)
+def test_steered_wheels_slide_by_the_steering_angle(kind, angle):
+    _, *mains = aircraft_gears()
+    gears = (changed(NOSE_KINDS[kind](), steering_deg=angle), *mains)
     landing = MakeLandingDiagram(aircraft_body(0), gears)
     context = landing.diagram.CreateDefaultContext()
     kinematics = landing.wheel_kinematics.GetMyContextFromRoot(context)
-    axle = landing.wheel_kinematics.GetOutputPort("wheel_nose_left").Eval(kinematics)
-    # The wheel's forward direction is up × axle: nose to starboard is toward +y.
-    forward = np.cross([0.0, 0.0, 1.0], axle[3:6])
+    wheel = next(iter(landing.tires))
+    axle = landing.wheel_kinematics.GetOutputPort(f"wheel_{wheel}").Eval(kinematics)
+    # The wheel's forward direction is up × axle: nose to starboard is toward +y. The
+    # heading of a raked strut's wheels is that of the turn seen from above.
     psi = np.radians(angle)
-    assert_allclose(forward, [-np.cos(psi), np.sin(psi), 0.0], atol=1e-12)
+    seen = psi if kind != "telescopic" else np.arctan(np.tan(psi) * np.cos(RAKE))
+    forward = np.cross([0.0, 0.0, 1.0], axle[3:6])
+    expected = [-np.cos(seen), np.sin(seen), 0.0]
+    assert_allclose(forward / np.linalg.norm(forward), expected, atol=1e-3)
     run = land(landing, duration=0.05, accuracy=1e-4)
-    contact = run["tire_nose_left.contact"]
+    contact = run[f"tire_{wheel}.contact"]
     late = contact[1] > 0.5 * contact[1].max()
-    assert_allclose(np.abs(contact[5][late]), abs(psi), rtol=0.02)
+    assert_allclose(np.abs(contact[5][late]), abs(psi), rtol=0.05)
     # It moves to port of where it points: the runway pushes it to starboard.
-    assert np.all(np.sign(run["tire_nose_left.wrench"][4][late]) == np.sign(angle))
+    assert np.all(np.sign(run[f"tire_{wheel}.wrench"][4][late]) == np.sign(angle))
+    total = run["energy_budget.total"][0]
+    sink_energy = 0.5 * _mass(landing) * SINK_RATE**2
+    assert np.abs(total - total[0]).max() < 1e-4 * sink_energy
+
+
+def _strut_moved(plant, bodies, context):
+    """Positions with 0.1 (m or rad) at the strut's joint."""
+    q = plant.GetPositions(context)
+    q[bodies.joints["strut"].position_start()] = 0.1
+    return q
+
+
+@pytest.mark.parametrize("kind", NOSE_KINDS)
+def test_steering_turns_all_below_the_fitting_about_one_axis(kind):
+    """Against the unsteered gear, turned as a whole about the steering axis."""
+    straight = NOSE_KINDS[kind]()
+    turned = changed(straight, steering_deg=20.0)
+    axis = np.array([0.0, 0.0, 1.0]) if kind == "levered" else strut_axis(straight)
+    centre = np.array(getattr(straight, "pivot", straight.axles[0]))
+    R = RotationMatrix(AngleAxis(-np.radians(20.0), axis)).matrix()
+    poses, inertia = {}, {}
+    for gear in (straight, turned):
+        plant, bodies = _plant(gear)
+        plant.Finalize()
+        context = plant.CreateDefaultContext()
+        plant.SetPositions(context, _strut_moved(plant, bodies, context))
+        for name, body in {**bodies.parts, **bodies.wheels}.items():
+            poses[gear, name] = body.EvalPoseInWorld(context)
+        moving = [body.index() for body in bodies.parts.values()]
+        spatial = plant.CalcSpatialInertia(context, plant.world_frame(), moving)
+        about = spatial.Shift(centre - P_BA).CalcRotationalInertia()
+        inertia[gear] = about.CopyToFullMatrix3()
+    for (gear, name), pose in poses.items():
+        if gear is straight:
+            p = centre - P_BA + R @ (pose.translation() - centre + P_BA)
+            assert_allclose(poses[turned, name].translation(), p, atol=1e-12)
+            found = poses[turned, name].rotation().matrix()
+            assert_allclose(found, R @ pose.rotation().matrix(), atol=1e-12)
+    assert_allclose(inertia[turned], R @ inertia[straight] @ R.T, atol=1e-9)
+
+
+@pytest.mark.parametrize("kind", NOSE_KINDS)
+def test_centre_of_gravity_of_a_steered_gear_is_that_of_its_bodies(kind):
+    gear = changed(NOSE_KINDS[kind](), steering_deg=35.0)
+    plant, bodies = _plant(gear)
+    plant.Finalize()
+    context = plant.CreateDefaultContext()
+    if bodies.pitch is not None:
+        bodies.pitch.set_angle(context, 0.0)
+    points = mass_points(gear)
+    expected = sum(m * p for m, p in points) / gear.mass - P_BA
+    found = plant.CalcCenterOfMassPositionInWorld(context)
+    assert_allclose(found, expected, atol=1e-12)
 
 
 @pytest.mark.parametrize(
