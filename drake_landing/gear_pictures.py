@@ -1,8 +1,8 @@
 """What a landing gear looks like: rods and wheels, fixed to its bodies.
 
-Body frames as `gear_bodies` makes them: parallel to A in the extended gear, turned where
-it is steered; the origin of the fitting at the attachment node, that of piston, arm or
-beam at the axle or pivot.
+Body frames as `gear_bodies` makes them: parallel to A in the extended gear, turned
+where it is steered; the origin of the fitting at the attachment node, that of piston,
+arm or beam at the axle or pivot.
 """
 
 from dataclasses import dataclass
