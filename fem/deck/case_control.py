@@ -51,7 +51,7 @@ class Subcase:
     options: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
-_QUANTITIES = {
+QUANTITIES = {
     "DISP": "DISPLACEMENT",
     "VECT": "DISPLACEMENT",
     "VELO": "VELOCITY",
@@ -235,7 +235,7 @@ def _set(subcase: Subcase, name: str, value: int | str) -> Subcase:
 
 def _quantity(name: str) -> str | None:
     """Quantity of an output command; four letters are enough."""
-    return _QUANTITIES.get(name[:4]) if len(name) != 4 or name in _QUANTITIES else None
+    return QUANTITIES.get(name[:4]) if len(name) != 4 or name in QUANTITIES else None
 
 
 def _number(text: str) -> int:

@@ -1,22 +1,39 @@
 """Which cards are read, which may be passed over, and which are not supported."""
 
-# Cards that cannot change the answer of the solutions here: output, plots, optimisation
-# of resources, and data that only other solutions or unselected sets use.
-WITHOUT_EFFECT = frozenset(
-    """
-    CBARAO CONTRLT DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN
-    DTABLE DTI DVCREL1 DVMREL1 DVPREL1 DVPREL2 ECHOOFF ECHOON EIGB EIGC FREQ FREQ1
-    FREQ2 FREQ3 FREQ4 FREQ5 GEOMIN MATS1 MDLPRM MONPNT1 MONPNT2 MONPNT3 NLPARM NLPCI
-    OUTRCV PLOTEL3 PLOTEL4 RANDPS RANDT1 RCROSS RLOAD1 RLOAD2 SEQGP SET1 SET2 SET3
-    SPLINE1 TABLED2 TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 TABLEST TABRND1 TEMP
-    TEMPD TEMPP1 TEMPP3 TEMPRB TSTEPNL USET USET1 UXVEC VIEW VIEW3D WEIGHT
-    """.split()
-)
+# Cards that cannot change the answer of the solutions here, by what they serve: output,
+# other solutions, sets that a selection would bring in (and a selection is refused).
+PASSED_OVER: dict[str, tuple[str, ...]] = {
+    what: tuple(cards.split())
+    for what, cards in (
+        (
+            "Printing, plots, ordering",
+            "CBARAO CONTRLT DTI ECHOOFF ECHOON GEOMIN MDLPRM OUTRCV PLOTEL3 PLOTEL4 "
+            "SEQGP USET USET1 UXVEC VIEW VIEW3D WEIGHT",
+        ),
+        (
+            "Design optimisation",
+            "DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN DTABLE "
+            "DVCREL1 DVMREL1 DVPREL1 DVPREL2",
+        ),
+        (
+            "Frequency response, random response, complex modes, buckling",
+            "EIGB EIGC FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 RANDPS RANDT1 RCROSS RLOAD1 "
+            "RLOAD2 TABLED2 TABRND1",
+        ),
+        (
+            "Temperatures, nonlinear solutions",
+            "MATS1 NLPARM NLPCI TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 TABLEST TEMP "
+            "TEMPD TEMPP1 TEMPP3 TEMPRB TSTEPNL",
+        ),
+        ("Aeroelasticity", "MONPNT1 MONPNT2 MONPNT3 SET1 SET2 SET3 SPLINE1"),
+    )
+}
+WITHOUT_EFFECT = frozenset().union(*PASSED_OVER.values())
 
 # Why cards are not supported, by the beginning of their names.
 _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
     (
-        ("MATT", "TABLEST"),
+        ("MATT",),
         "materials do not depend on temperature here; without it, the constants of "
         "the MAT card hold",
     ),

@@ -16,6 +16,8 @@ from fem.tables import column, refer, table, where
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
+COLUMNS = ("axial", "torsion")
+
 
 @dataclass(frozen=True, kw_only=True)
 class RodSection:
@@ -86,7 +88,7 @@ class Rod(DenseBlock):
     def forces(self) -> Recovery:
         return Recovery(
             table=self.card,
-            columns=("axial", "torsion"),
+            columns=COLUMNS,
             matrix=self._resultants(
                 self.material.e * self.section.a, self.material.g * self.section.j
             ),
@@ -96,7 +98,7 @@ class Rod(DenseBlock):
     def stresses(self) -> Recovery:
         return Recovery(
             table=self.card,
-            columns=("axial", "torsion"),
+            columns=COLUMNS,
             matrix=self._resultants(
                 np.where(self.section.a != 0.0, self.material.e, 0.0),
                 np.where(self.section.j != 0.0, self.material.g, 0.0) * self.section.c,
@@ -108,7 +110,7 @@ class Rod(DenseBlock):
         """Stretch, and shear strain at the lever of the torsional stress."""
         return Recovery(
             table=self.card,
-            columns=("axial", "torsion"),
+            columns=COLUMNS,
             matrix=self._resultants(np.ones_like(self.length), self.section.c),
             id=self.id,
         )

@@ -18,6 +18,8 @@ from fem.tables import column, refer, table
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
+SPRING_COLUMNS = ("spring_force", "spring_stress", "spring_strain")
+DAMPER_COLUMNS = ("damper_force",)
 _PAIR = np.array([[1.0, -1.0], [-1.0, 1.0]])
 
 
@@ -42,14 +44,14 @@ class Springs(DenseBlock):
         return some(self.ge)
 
     def forces(self) -> Recovery:
-        return self._recovery("spring_force", self.k)
+        return self._recovery(SPRING_COLUMNS[0], self.k)
 
     def stresses(self) -> Recovery:
-        return self._recovery("spring_stress", self.k * self.s)
+        return self._recovery(SPRING_COLUMNS[1], self.k * self.s)
 
     def strains(self) -> Recovery:
         """Stress coefficient times elongation, as NX has it."""
-        return self._recovery("spring_strain", self.s)
+        return self._recovery(SPRING_COLUMNS[2], self.s)
 
     def _recovery(self, column: str, factor: Float64) -> Recovery:
         matrix = factor[:, None, None] * _PAIR[:1]
@@ -70,7 +72,7 @@ class Dashpots(DenseBlock):
         rate = self.b[:, None, None] * _PAIR[:1]
         return Recovery(
             table=self.card,
-            columns=("damper_force",),
+            columns=DAMPER_COLUMNS,
             matrix=np.zeros_like(rate),
             rate=rate,
             id=self.id,

@@ -12,7 +12,7 @@ from fem.elements.shell_recovery import point_names
 from fem.elements.solid_stiffness import SolidMatrices
 from fem.elements.stress_measures import solid_principal, solid_von_mises
 
-_STRESS = (
+STRESS = (
     "oxx",
     "oyy",
     "ozz",
@@ -153,7 +153,7 @@ class Solid(DenseBlock):
         e, p = matrix.shape[:2]
         return SolidRecovery(
             table=self.card,
-            columns=point_names(_STRAIN if strain else _STRESS, p),
+            columns=point_names(_STRAIN if strain else STRESS, p),
             matrix=matrix.reshape(e, p * 6, -1),
             id=self.id,
             strain=strain,

@@ -7,7 +7,7 @@ import numpy as np
 
 from fem.elements.block import Float64, Recovery
 from fem.elements.dense import DenseBlock
-from fem.elements.rod import line_springs, unit_axes
+from fem.elements.rod import COLUMNS, line_springs, unit_axes
 from fem.points import Points
 from fem.tables import column, refer, table
 
@@ -40,7 +40,7 @@ class Viscous(DenseBlock):
             rate[:, row, 6 + 3 * row : 9 + 3 * row] = along
         return Recovery(
             table=self.card,
-            columns=("axial", "torsion"),
+            columns=COLUMNS,
             matrix=np.zeros_like(rate),
             rate=rate,
             id=self.id,
