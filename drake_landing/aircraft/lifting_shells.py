@@ -17,7 +17,12 @@ from drake_landing.aircraft.reference_axis import (
 )
 from drake_landing.aircraft.shell_elements import add_box_elements
 from drake_landing.aircraft.shell_mesh import BoxMesh, add_box
-from drake_landing.aircraft.sizing import box_sizing, movable_sizing, smeared
+from drake_landing.aircraft.sizing import (
+    box_sizing,
+    movable_sizing,
+    smeared,
+    with_root_fittings,
+)
 from drake_landing.aircraft.stations import (
     movable_stations,
     tail_stations,
@@ -71,6 +76,8 @@ def add_lifting_shells(
             sizing = box_sizing(name)
             if density["stringers"] == "smeared":
                 sizing = smeared(sizing, caps=name != "wing")
+            if name == "wing" and density["root_fittings"]:
+                sizing = with_root_fittings(sizing)
             add_box_elements(model, mesh, sizing)
             _tie_ribs(model, reference[part], mesh)
     for side, _ in SIDES:

@@ -45,6 +45,23 @@ def smeared(sizing: BoxSizing, *, caps: bool) -> BoxSizing:
     )
 
 
+def with_root_fittings(sizing: BoxSizing) -> BoxSizing:
+    """The wing box with heavier spar caps in the bay outside of the fuselage."""
+    data, ribs = facts("shells")["wing"]["root_cap"], table("wing_ribs")
+    eta = ribs.set_index("rib").eta_front_spar
+    first, last = surface("wing").station(eta[[data["first"], data["last"]]])
+    cap = sizing.cap or _none
+
+    def heavier(at: float) -> float:
+        return max(cap(at), data["area"]) if first <= at <= last else cap(at)
+
+    return replace(sizing, cap=heavier)
+
+
+def _none(_: float) -> float:
+    return 0.0
+
+
 def _wing() -> BoxSizing:
     data, rows = facts("shells")["wing"], table("wing_stiffness")
     factor = data["thickness_factor"]
