@@ -16,6 +16,7 @@ from drake_landing.axes import rotation_AB
 from drake_landing.basis import Basis, elastic_basis, with_residual_vectors
 from drake_landing.cache import Cache
 from drake_landing.case import Airframe
+from drake_landing.free_flight import check_mass
 from drake_landing.inputs import Aircraft
 from drake_landing.progress import Reporter, Silent
 from drake_landing.scenario import Scenario
@@ -111,6 +112,7 @@ def load_airframe(
     tell = progress or Silent()
     structure = aircraft.structure()
     check_nodes(structure, aircraft)
+    check_mass(structure)
     basis = elastic_basis(
         structure,
         airframe,
@@ -134,13 +136,14 @@ def check_nodes(structure: Structure, aircraft: Aircraft) -> None:
     """Every grid that the case names is there and moves with the structure.
 
     Raises:
-        InputError: those that do not, each with its purpose.
+        InputError: those that do not, each with the field that names it.
     """
     points, deck = structure.points, aircraft.deck
     known = np.isin(list(aircraft.nodes), points.grid_id)
     problems = [
-        f"{purpose}: grid {node} is not in {deck}; near by are {_near(points, node)}"
-        for (node, purpose), there in zip(aircraft.nodes.items(), known)
+        f"{field}: found grid {node}, which is not in {deck}; nearest are "
+        f"{_near(points, node)}"
+        for (node, field), there in zip(aircraft.nodes.items(), known)
         if not there
     ]
     if problems:

@@ -15,6 +15,7 @@ import scipy.sparse as sp
 
 from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.case import Airframe, Selection
+from drake_landing.free_flight import check_free_flight
 from fem.errors import InputError
 from fem.linear_solver import SingularMatrixError
 from fem.modal_transient import residual_vectors
@@ -279,16 +280,7 @@ def _check_rigid(structure: Structure, modes: Modes, shape: Float64) -> None:
     """
     if modes.rigid == _RIGID:
         return
-    if modes.rigid < _RIGID:
-        held = structure.rigid_body
-        energy = np.einsum("fi,fi->i", held, structure.stiffness @ held)
-        axes = ("x", "y", "z", "rotation x", "rotation y", "rotation z")
-        stiff = ", ".join(a for a, e in zip(axes, energy) if e > 1e-6 * energy.max())
-        raise InputError(
-            f"{structure.deck.path}: {modes.rigid} rigid-body modes, expected 6: the "
-            f"airframe must fly freely, but something holds it in {stiff or 'part'}; "
-            "take out SPC, grounded springs, or elements that do not let it turn"
-        )
+    check_free_flight(structure)
     loose = shape[:, : modes.rigid]
     mass = structure.mass
     rigid = structure.rigid_body

@@ -14,6 +14,7 @@ from pydantic import (
     Discriminator,
     Field,
     PlainSerializer,
+    PrivateAttr,
     Tag,
     ValidationInfo,
     WithJsonSchema,
@@ -22,6 +23,7 @@ from pydantic import (
 )
 
 from drake_landing.gear import AnyGear
+from drake_landing.places import Places
 from drake_landing.scenario import Scenario as Scenario
 from drake_landing.section import Section, number
 
@@ -274,6 +276,18 @@ class Case(Section):
     scenario: Scenario
     simulation: Simulation = Simulation()
     transient: Transient = Transient()
+    _places: Places = PrivateAttr(default=Places())
+
+    @property
+    def places(self) -> Places:
+        """Where its fields were written."""
+        return self._places
+
+    def written_at(self, places: Places) -> Self:
+        """The same case, with the places of its fields."""
+        case = self.model_copy()
+        case._places = places
+        return case
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from drake_landing.case import Case
+from drake_landing.places import Places
 from fem.errors import InputError, nearest
 
 Loc = tuple[int | str, ...]
@@ -44,16 +45,18 @@ def parse_case(text: str, *, file: str = "<case>", folder: Path | None = None) -
         raise InputError(
             f"{file}:1: expected a mapping of sections, found {_kind(data)}"
         )
+    places = Places.of(file, tree, frozenset(Case.model_fields))
     problems = [f"{file}:{line}: {text}" for line, text in _repeated_keys(tree)]
+    data.pop("$schema", None)  # for editors
     try:
         case = Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        found = [_problem(tree, dict(e)) for e in error.errors()]
+        found = [_problem(places, dict(e)) for e in error.errors()]
         problems += [f"{file}:{line}: {text}" for line, text in sorted(set(found))]
         raise InputError(problems) from None
     if problems:
         raise InputError(problems)
-    return case
+    return case.written_at(places)
 
 
 def case_text(case: Case) -> str:
@@ -110,11 +113,14 @@ def _repeated_keys(node: yaml.Node, path: str = "") -> list[tuple[int, str]]:
     return found
 
 
-def _problem(tree: yaml.Node, error: dict[str, Any]) -> tuple[int, str]:
+def _problem(places: Places, error: dict[str, Any]) -> tuple[int, str]:
     """Line and text of one pydantic error."""
     models, field, loc = _resolve(error["loc"])
-    where = ".".join(map(str, loc)) + ": " if loc else ""
-    return _line(tree, loc), where + _explain(error, models, field, loc)
+    path = ".".join(map(str, loc))
+    text = _explain(error, models, field, loc)
+    if not path:  # of the whole case: the text itself names the field
+        return places.line(text.partition(":")[0]), text
+    return places.line(path), f"{path}: {text}"
 
 
 def _explain(
@@ -188,28 +194,3 @@ def _models_in(annotation: Any) -> list[type[BaseModel]]:
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return [annotation]
     return [m for part in get_args(annotation) for m in _models_in(part)]
-
-
-def _line(node: yaml.Node, loc: Loc) -> int:
-    """Line of the deepest part of the path that the file holds."""
-    line = node.start_mark.line + 1
-    for step in loc:
-        child = _child(node, step)
-        if child is None:
-            break
-        line, node = child
-    return line
-
-
-def _child(node: yaml.Node, step: int | str) -> tuple[int, yaml.Node] | None:
-    if isinstance(node, yaml.MappingNode):
-        for key, value in node.value:
-            if key.value == str(step):
-                return key.start_mark.line + 1, value
-    elif (
-        isinstance(node, yaml.SequenceNode)
-        and isinstance(step, int)
-        and step < len(node.value)
-    ):
-        return node.value[step].start_mark.line + 1, node.value[step]
-    return None

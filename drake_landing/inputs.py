@@ -10,7 +10,7 @@ from drake_landing.gear import LandingGear
 from drake_landing.scenario import Lift, Scenario
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
-from fem.errors import InputError
+from fem.errors import InputError, nearest
 from fem.structure import Structure
 
 
@@ -67,14 +67,16 @@ class Aircraft:
 
     @property
     def nodes(self) -> dict[int, str]:
-        """Grids that must exist -> what for."""
-        wanted = dict.fromkeys(self.lift_nodes, "node of the lift")
+        """Grids that must exist -> field of the case that names them."""
+        wanted = dict.fromkeys(self.lift_nodes, "scenario.lift.nodes")
         for name, grid in self.monitoring.items():
-            wanted[grid] = f"monitoring point {name}"
+            wanted[grid] = f"airframe.monitoring.{name}"
         for gear in self.gears:
-            for name, node in gear.attachments.items():
-                wanted[node] = f"attachment node of gear {name}"
-        return {**dict.fromkeys(self.interface, "interface grid"), **wanted}
+            wanted[gear.attachment_node] = f"gears.{gear.name}.attachment_node"
+            for hold in gear.further_attachments:
+                field = f"gears.{gear.name}.further_attachments.{hold.name}.node"
+                wanted[hold.node] = field
+        return {**dict.fromkeys(self.interface, "airframe.interface"), **wanted}
 
 
 def prepare_aircraft(case: Case, out: Path) -> Aircraft:
@@ -90,8 +92,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         if airframe.matrices is not None:
             deck, read = _matrices_deck(airframe.matrices, out)
         if deck is None or not deck.is_file():
-            found = "a folder" if deck is not None and deck.is_dir() else "no such file"
-            raise InputError(f"airframe.deck: {found}: {deck}")
+            raise InputError(f"airframe.deck: {_not_a_file(deck)}")
         assert case.gears != "d150"  # the case sees to it
         return Aircraft(
             name=deck.stem,
@@ -120,6 +121,16 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
     )
 
 
+def _not_a_file(deck: Path | None) -> str:
+    """What is there in place of a deck, and what may be meant."""
+    if deck is None or not deck.parent.is_dir():
+        return f"found {deck}, expected a file; the folder does not exist"
+    if deck.is_dir():
+        return f"found {deck}, a folder; expected a file"
+    others = sorted(p.name for p in deck.parent.iterdir() if p.is_file())
+    return f"found {deck}, no such file" + nearest(deck.name, others)
+
+
 def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario:
     """Those of the built-in model where the case has none."""
     lift = scenario.lift
@@ -127,8 +138,8 @@ def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario
         return scenario
     if not wing:
         raise InputError(
-            "scenario.lift.nodes: none, expected the grids of the deck that carry the "
-            "lift, round the centre of gravity"
+            "scenario.lift.nodes: found none, expected the grids of the deck that "
+            "carry the lift, round the centre of gravity"
         )
     return scenario.model_copy(update={"lift": lift.model_copy(update={"nodes": wing})})
 

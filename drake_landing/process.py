@@ -74,7 +74,11 @@ def run_case(case: Case, out: Path, progress: Reporter | None = None) -> Process
         InputError: case, deck or gears are at fault; every problem is named.
         LandingError: the landing could not be integrated.
     """
-    stages = _Stages(progress or Silent())
+    with case.places.located():
+        return _run_case(case, out, _Stages(progress or Silent()))
+
+
+def _run_case(case: Case, out: Path, stages: "_Stages") -> ProcessResult:
     out.mkdir(parents=True, exist_ok=True)
 
     stages.begin("reading the airframe")

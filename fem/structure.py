@@ -25,7 +25,7 @@ from fem.direct_input import read_direct
 from fem.elements.registry import element_notices, read_elements
 from fem.errors import InputError
 from fem.linear_solver import SingularMatrixError
-from fem.mechanisms import describe, find_mechanisms
+from fem.mechanisms import Mechanism, describe, find_mechanisms
 from fem.pieces import describe_pieces, unconnected_pieces
 from fem.points import Points
 from fem.quality import quality_notices, quality_table
@@ -133,7 +133,7 @@ class Structure:
             self.points,
             self.matrices.mass,
             reference=reference,
-            wtmass=_number(self.deck, "WTMASS"),
+            wtmass=_number(self.deck, "WTMASS") or 1.0,  # 0 leaves no mass to divide
         )
 
     # -- constraints ----------------------------------------------------------------
@@ -368,14 +368,25 @@ class Structure:
             dynamic: leave out motions that move mass.
             solver: as in `fem.linear_solver.factorize`.
         """
+        found = self.mechanisms(dynamic=dynamic, solver=solver)
+        return describe(found, self.label, dynamic=dynamic)
+
+    def mechanisms(
+        self, *, dynamic: bool = False, solver: SolverName | None = None
+    ) -> list[Mechanism]:
+        """Motions of the free set without stiffness, rigid-body motions included.
+
+        Args:
+            dynamic: leave out motions that move mass.
+            solver: as in `fem.linear_solver.factorize`.
+        """
         f, grids = self.elimination.f, 6 * len(self.points.grid_id)
-        mechanisms = find_mechanisms(
+        return find_mechanisms(
             self.stiffness,
             solver=solver,
             mass=self.mass if dynamic else None,
             point=np.where(f < grids, f // 6, f),
         )
-        return describe(mechanisms, self.label, dynamic=dynamic)
 
     def guarded(
         self,

@@ -93,7 +93,7 @@ def test_selections(text: str, kind: str, value: float) -> None:
         ("name: small", "name: small\nname: big", 2, ["already given in line 1"]),
         ("  sink_rate: 1.8288", "  3", 4, ["scenario: found 3", "mapping"]),
         ("name: small", "name: small\ngears: d15", 2, ["did you mean 'd150'"]),
-        ("name: small", "name: small\ngears: []", 1, ["at least one landing gear"]),
+        ("name: small", "name: small\ngears: []", 2, ["at least one landing gear"]),
         ("name: small", "name: [", 3, ["not valid YAML"]),
     ],
 )

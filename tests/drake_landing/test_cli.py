@@ -83,7 +83,7 @@ BAD_DECKS = {
     ),
     "truncated within": (
         lambda t: t[: t.index("GRID,41")],
-        ["main_left: grid 53", "may be cut off"],
+        ["main_left", "grid 53", "may be cut off"],
     ),
     "not a deck": (lambda t: "\0\1\2", ["not a text file"]),
     "held": (
