@@ -28,7 +28,7 @@ from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlan
 from pydrake.multibody.tree import MultibodyForces, RigidBody
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 
-from systems import kernels
+from systems import attachment_solve
 from systems.attachment_points import AttachmentPoint, HoldPattern, Rows
 from systems.gear_forces import spatial_forces
 from systems.rotations import rotation_from_quaternion
@@ -175,7 +175,7 @@ class Attachment(LeafSystem):
     def _calc_gap(self, context, value) -> None:
         state, pose = self._state.Eval(context), self._pose.Eval(context)
         velocity = self._velocity.Eval(context)
-        points, gap, rate, R_WF = kernels.fitting_gaps(
+        points, gap, rate, R_WF = attachment_solve.fitting_gaps(
             state, self._positions, self._velocities, pose, velocity
         )
         if self._pattern.plain:
@@ -306,7 +306,7 @@ class RigidAttachment(Attachment):
         compliance = self._compliance.Eval(context)
         acceleration = self._acceleration.Eval(context)
         if gap.rows is None:
-            return kernels.plain_load(
+            return attachment_solve.plain_load(
                 *fittings,
                 compliance,
                 acceleration,
@@ -325,7 +325,7 @@ class RigidAttachment(Attachment):
         compliance: Float64,
         acceleration: Float64,
     ) -> Float64:
-        response, free = kernels.fitting_response(*fittings)
+        response, free = attachment_solve.fitting_response(*fittings)
         k = 6 * self._k
         matrix = held.on_fitting @ response @ held.on_fitting.T
         matrix += held.on_node @ compliance.reshape(k, k) @ held.on_node.T
@@ -333,10 +333,10 @@ class RigidAttachment(Attachment):
         wanted -= 2.0 * self._alpha * gap.rate + self._beta**2 * gap.gap
         rigid = self._rigid
         if rigid.all():
-            return kernels.solve_positive(matrix, wanted)
+            return attachment_solve.solve_positive(matrix, wanted)
         load = -(self._pattern.stiffness * gap.gap + self._pattern.damping * gap.rate)
         wanted = wanted - matrix[:, ~rigid] @ load[~rigid]
-        load[rigid] = kernels.solve_positive(
+        load[rigid] = attachment_solve.solve_positive(
             matrix[np.ix_(rigid, rigid)], wanted[rigid]
         )
         return load

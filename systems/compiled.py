@@ -5,17 +5,22 @@ arithmetic and short loops, where numpy spends most of its time on the call itse
 Plain Python remains the language; `function.py_func` is the function uncompiled.
 
 The machine code is kept beside the module (or in the user's cache folder), and renewed
-when the module's file changes. Therefore a compiled function calls only compiled
-functions of its own module.
+when the module's file changes, or `vectors`: a compiled function calls only compiled
+functions of its own module and of that one.
 """
 
+import hashlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import ParamSpec, TypeVar, cast
 
 from numba import njit
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+_VOCABULARY = Path(__file__).with_name("vectors.py").read_bytes()
+_EDITION = hashlib.sha256(_VOCABULARY).hexdigest()[:8]
 
 # Sums may be reordered, which lets loops use vector instructions; nothing is assumed
 # of infinities, NaN or signed zeros.
@@ -24,6 +29,8 @@ _OPTIONS = {"fastmath": {"reassoc", "contract", "nsz"}, "error_model": "numpy"}
 
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """The function, compiled at its first call."""
+    # Numba files the machine code under this name.
+    function.__qualname__ += f"_{_EDITION}"
     try:
         fast = njit(cache=True, **_OPTIONS)(function)
     except RuntimeError:  # no folder that could be written to

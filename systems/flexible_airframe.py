@@ -1,14 +1,8 @@
 """A free-flying flexible airframe: Newton-Euler plus elastic modes in mean axes.
 
-The floating frame B has its origin at the centre of gravity G of the body and turns
-with its mean axes, to which the elastic modes are orthogonal:
-
-    m a_G = F - m g e_z,    I ω' + ω × I ω = M_G,
-    m_i η_i" + Σ_j c_ij η_j' + m_i ω_i² η_i = φ_iᵀ f.
-
-The inertia I is that of the undeformed body. The arms of the loads are those of the
-deformed one (see `modal_kinematics`), whereby power is conserved at any deformation;
-what is neglected is of the order of deformation over size of the body.
+The equations are in `modal_dynamics`, the motion of its nodes in `modal_kinematics`:
+loads act at the places of the deformed body, whereby power is conserved at any
+deformation; what is neglected is of the order of deformation over size of the body.
 """
 
 from collections.abc import Sequence
@@ -26,7 +20,7 @@ from pydrake.systems.framework import (
     ValueProducer,
 )
 
-from systems import kernels
+from systems import modal_dynamics
 from systems.modal_body import ModalBody
 from systems.modal_kinematics import Nodes, mode_scales, node_motion
 
@@ -220,7 +214,7 @@ class FlexibleAirframe(LeafSystem):
 
     def _calc_free(self, context, value) -> None:
         """Generalised accelerations [a_WG in W; ω' in B] (6) and η" (n), no wrench."""
-        rigid, elastic = kernels.free_acceleration(
+        rigid, elastic = modal_dynamics.free_acceleration(
             self._motion.Eval(context)[0],
             self._stiffness,
             self._damping,
@@ -236,7 +230,7 @@ class FlexibleAirframe(LeafSystem):
 
     def _calc_loaded(self, context, value) -> None:
         motion = self._motion.Eval(context)[1]
-        loaded = kernels.loaded_acceleration(
+        loaded = modal_dynamics.loaded_acceleration(
             motion.R_WB,
             motion.rigid,
             motion.turn,
@@ -252,7 +246,7 @@ class FlexibleAirframe(LeafSystem):
         self, context: Context, derivatives: ContinuousState
     ) -> None:
         x = self._motion.Eval(context)[0]
-        rate = kernels.state_rate(x, *self._loaded.Eval(context), _STABILISATION)
+        rate = modal_dynamics.state_rate(x, *self._loaded.Eval(context), _STABILISATION)
         derivatives.SetFromVector(rate)
 
     def _calc_node_pose(self, context, output) -> None:
@@ -297,7 +291,7 @@ class FlexibleAirframe(LeafSystem):
 
     def _calc_dissipated_power(self, context, output) -> None:
         x = context.get_continuous_state_vector().CopyToVector()
-        power = kernels.damping_power(x, self._modal_mass, self._damping)
+        power = modal_dynamics.damping_power(x, self._modal_mass, self._damping)
         output.SetAtIndex(0, power)
 
     def _calc_external_power(self, context, output) -> None:

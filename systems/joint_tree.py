@@ -21,6 +21,7 @@ from pydrake.multibody.tree import (
 )
 
 from systems.compiled import compiled
+from systems.vectors import rotation_matrix
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -152,21 +153,6 @@ def _turn_about(axis: Float64, angle: float) -> Float64:
 
 
 @compiled
-def _of_quaternion(w: float, x: float, y: float, z: float) -> Float64:
-    s = 2.0 / (w * w + x * x + y * y + z * z)
-    R = np.empty((3, 3))
-    R[0, 0], R[1, 1], R[2, 2] = (
-        1.0 - s * (y * y + z * z),
-        1.0 - s * (x * x + z * z),
-        1.0 - s * (x * x + y * y),
-    )
-    R[0, 1], R[1, 0] = s * (x * y - w * z), s * (x * y + w * z)
-    R[0, 2], R[2, 0] = s * (x * z + w * y), s * (x * z - w * y)
-    R[1, 2], R[2, 1] = s * (y * z - w * x), s * (y * z + w * x)
-    return R
-
-
-@compiled
 def _times(X: Float64, Y: Float64, out: Float64) -> None:
     """out = X Y of poses (3, 4)."""
     for i in range(3):
@@ -188,7 +174,7 @@ def _joint_pose(kind: int, axis: Float64, state: Float64, q: int) -> Float64:
     X = np.zeros((3, 4))
     X[0, 0] = X[1, 1] = X[2, 2] = 1.0
     if kind == 0:
-        X[:, :3] = _of_quaternion(state[q], state[q + 1], state[q + 2], state[q + 3])
+        X[:, :3] = rotation_matrix(state[q], state[q + 1], state[q + 2], state[q + 3])
         X[:, 3] = state[q + 4 : q + 7]
     elif kind == 2:
         for i in range(3):
