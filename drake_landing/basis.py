@@ -19,7 +19,7 @@ from drake_landing.free_flight import check_free_flight
 from fem.errors import InputError
 from fem.linear_solver import SingularMatrixError
 from fem.modal_transient import residual_vectors
-from fem.modes import Modes, ModesError, normal_modes
+from fem.modes import Modes, ModesError, normal_modes, rigid_energy
 from fem.reduction import Reduction, reduce_craig_bampton
 from fem.structure import Structure
 
@@ -29,6 +29,7 @@ Progress = Callable[[int, int], None]
 
 _RIGID = 6
 _LARGEST_FOR_ALL = 6000  # freedoms: "all" modes of more are no basis, they are a model
+_HELD = 1e-12  # energy of a rigid motion over that of its parts: no rounding any more
 _FEW = 6  # rows on which a dependent interface freedom may rest
 
 
@@ -130,7 +131,7 @@ def _elastic(
         rigid = np.zeros((reduction.size, _RIGID))
         rigid[: len(rows)] = structure.rigid_body[rows]
         modes = normal_modes(
-            sp.csr_matrix(reduction.stiffness),
+            sp.csr_matrix(_without_rounding(reduction.stiffness, rigid, structure)),
             sp.csr_matrix(reduction.mass),
             **_wanted(select, reduction.size),
             rigid_body=rigid,
@@ -270,6 +271,23 @@ def _reduce(structure: Structure, airframe: Airframe, kept: Rows) -> Reduction:
     found = structure.guarded(reduce, dynamic=False, error=SingularMatrixError)
     assert isinstance(found, Reduction)
     return found
+
+
+def _without_rounding(
+    stiffness: Float64, rigid: Float64, structure: Structure
+) -> Float64:
+    """Reduced stiffness that a free structure's rigid motions do not strain.
+
+    What is condensed may be far stiffer than what remains: the difference keeps the
+    rounding of the former, enough to pass for a weak support. A structure that is held
+    is left as it is.
+    """
+    if rigid_energy(structure.stiffness, structure.rigid_body).max() > _HELD:
+        return stiffness
+    q, _ = np.linalg.qr(rigid)
+    force = stiffness @ q
+    force -= 0.5 * q @ (q.T @ force)
+    return stiffness - force @ q.T - q @ force.T
 
 
 def _check_rigid(structure: Structure, modes: Modes, shape: Float64) -> None:
