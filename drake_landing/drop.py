@@ -96,7 +96,7 @@ class _DropLaw:
         self._spin = gear.wheel.spin_inertia
         self._speed, self._friction = speed, friction
         strut = shock_absorber_parameters(gear.shock_absorber)
-        self._strut, self._tunables = StrutLaw(strut), _tunables(strut)
+        self._strut, self._tunables = StrutLaw(strut), strut.tunables
         self._tyre = tire_parameters(gear.tyre)
         self._tyre_law = TireLaw(self._tyre, Runway())
 
@@ -119,7 +119,7 @@ class _DropLaw:
     def _forces(self, x: Sequence[float]) -> tuple[float, float, float, float]:
         """Force of the strut, of all tyres: normal and drag; radius of the wheel."""
         z, u, v, w, omega = x
-        strut = self._strut.force(z - u, v - w, 0.0, self._tunables)
+        strut = self._strut.forces(z - u, v - w, 0.0, self._tunables).total
         normal = 0.0
         if u > 0.0:
             damping = min(u / self._tyre.damping_ramp, 1.0) * self._damping
@@ -136,10 +136,6 @@ class _DropLaw:
     def _damping(self) -> float:
         damping = self._tyre.damping
         return damping if isinstance(damping, int | float) else max(damping.y)
-
-
-def _tunables(p) -> list[float]:
-    return list(p.tunables)
 
 
 def _runge_kutta(rate, x: list[float], h: float) -> list[float]:

@@ -5,8 +5,8 @@ positive in compression. Its parts:
 
     gas       `gas_spring`
     damping   `orifice_damper`
-    friction  smoothed Coulomb: seals (a share of the gas force) and bearings (a share
-              of their reactions to the load across the strut)
+    friction  `friction`: smoothed Coulomb in seals (a share of the gas force) and
+              bearings (a share of their reactions to the load across the strut)
     stops     `stops`: bottoming beyond the mechanical stroke, and the extension stop
 
 The extension stop carries the gas preload. With stiffness k_e it is compressed by
@@ -18,6 +18,7 @@ Energy: d(energy)/dt + dissipated_power = force × rate, energy zero at rest.
 """
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
@@ -31,8 +32,9 @@ from pydrake.systems.framework import (
 from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.checks import require
+from systems.friction import bearing_reactions, coulomb_force
 from systems.gas_spring import GasSpring, gas_energy, gas_force
-from systems.orifice_damper import bearing_reactions, coulomb_force, orifice_force
+from systems.orifice_damper import orifice_force
 from systems.scalar import Scalar
 from systems.stops import contact_elastic, contact_energy, never_pulling
 from systems.table import Table
@@ -140,6 +142,28 @@ class ShockAbsorberParameters:
         ]
 
 
+class StrutForces(NamedTuple):
+    """Parts of a strut's force, N, positive apart; floats or AutoDiffXd."""
+
+    gas: Scalar
+    damping: Scalar
+    friction: Scalar
+    stops: Scalar
+    stop_damping: Scalar
+
+    @property
+    def total(self) -> Scalar:
+        """Gas and stops first: their sum is exactly zero at rest."""
+        return (
+            (self.gas + self.stops) + self.damping + self.friction + self.stop_damping
+        )
+
+    @property
+    def dissipating(self) -> Scalar:
+        """The part that turns power into heat: never with the motion."""
+        return self.damping + self.friction + self.stop_damping
+
+
 class StrutLaw:
     """The force law of one strut: pure functions of stroke, rate and side load.
 
@@ -166,13 +190,13 @@ class StrutLaw:
             )
         return length - (1.0 - _GAS_LIMIT) * (length - self._p.max_stroke)
 
-    def parts(
+    def forces(
         self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
-    ) -> tuple[Scalar, Scalar, Scalar, Scalar, Scalar]:
-        """Gas, oil damping, friction, stops' elastic and damping force, N each."""
+    ) -> StrutForces:
+        """The parts of the force at stroke (m), rate (m/s) and side load (N)."""
         p = self._p
-        f0, length, n, compression, rebound, seal, bearing = tunables
-        gas = gas_force(s, (f0, length, n), self._second, self._limit(length))
+        f0, _, _, compression, rebound, seal, bearing = tunables
+        gas = self.gas_force(s, tunables)
         damping = orifice_force(
             s,
             rate,
@@ -199,16 +223,12 @@ class StrutLaw:
             damper = damper + never_pulling(
                 bottoming, bottoming * p.stop_damping * rate
             )
-        return gas, damping, friction, elastic, damper
+        return StrutForces(gas, damping, friction, elastic, damper)
 
-    def force(
-        self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
-    ) -> Scalar:
-        """Total force, positive apart, N."""
-        gas, damping, friction, elastic, damper = self.parts(
-            s, rate, side_load, tunables
-        )
-        return (gas + elastic) + damping + friction + damper
+    def gas_force(self, s: Scalar, tunables: list[Scalar]) -> Scalar:
+        """Force of the gas alone, N."""
+        f0, length, n = tunables[:3]
+        return gas_force(s, (f0, length, n), self._second, self._limit(length))
 
     def energy(self, s: Scalar, tunables: list[Scalar]) -> Scalar:
         """Energy stored in gas and stops, zero at zero stroke, J."""
@@ -222,13 +242,6 @@ class StrutLaw:
             - 0.5 * f0 * preload
             + contact_energy(s - p.max_stroke, p.bottoming_stop_stiffness)
         )
-
-    def dissipated_power(
-        self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
-    ) -> Scalar:
-        """Power turned into heat, never negative, W."""
-        _, damping, friction, _, damper = self.parts(s, rate, side_load, tunables)
-        return (damping + friction + damper) * rate
 
 
 @TemplateSystem.define("ShockAbsorber_", T_list=(float, AutoDiffXd))
@@ -263,12 +276,12 @@ def ShockAbsorber_(T):
             state = {self._state.ticket(), parameter}
             everything = {*state, self._side_load.ticket()}
             # The law is evaluated once for force, components and power.
-            self._parts = self.DeclareCacheEntry(
+            self._forces = self.DeclareCacheEntry(
                 "law",
-                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_parts),
+                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
                 everything,
             )
-            law = {self._parts.ticket()}
+            law = {self._forces.ticket()}
             for name, size, calc, tickets in (
                 ("force", 1, self._calc_force, law),
                 ("energy", 1, self._calc_energy, state),
@@ -302,31 +315,30 @@ def ShockAbsorber_(T):
                 side_load = self._side_load.Eval(context).tolist()[0]
             return s, rate, side_load, p
 
-        def _calc_parts(self, context, value):
+        def _calc_law(self, context, value):
             """Rate, and the parts of the force."""
             inputs = self._inputs(context)
-            value.set_value((inputs[1], *self._law.parts(*inputs)))
+            value.set_value((inputs[1], self._law.forces(*inputs)))
 
         def _calc_force(self, context, output):
-            _, gas, damping, friction, elastic, damper = self._parts.Eval(context)
-            output.SetAtIndex(0, (gas + elastic) + damping + friction + damper)
+            output.SetAtIndex(0, self._forces.Eval(context)[1].total)
 
         def _calc_energy(self, context, output):
             s, _, _, p = self._inputs(context)
             output.SetAtIndex(0, self._law.energy(s, p))
 
         def _calc_dissipated_power(self, context, output):
-            rate, _, damping, friction, _, damper = self._parts.Eval(context)
-            output.SetAtIndex(0, (damping + friction + damper) * rate)
+            rate, forces = self._forces.Eval(context)
+            output.SetAtIndex(0, forces.dissipating * rate)
 
         def _calc_components(self, context, output):
-            _, gas, damping, friction, elastic, damper = self._parts.Eval(context)
+            gas, damping, friction, elastic, damper = self._forces.Eval(context)[1]
             output.SetFromVector([gas, damping, friction, elastic + damper])
 
         def _calc_gas_pressure(self, context, output):
-            s, rate, side_load, p = self._inputs(context)
-            gas = self._law.parts(s, rate, side_load, p)[0]
-            output.SetAtIndex(0, gas / self._parameters.gas.area)
+            s, _, _, p = self._inputs(context)
+            area = self._parameters.gas.area
+            output.SetAtIndex(0, self._law.gas_force(s, p) / area)
 
     return Impl
 

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydrake.autodiffutils import InitializeAutoDiff
 
+from systems.friction import bearing_reactions
 from systems.gas_spring import GasSpring, SecondChamber, series_split
-from systems.orifice_damper import bearing_reactions
 from systems.shock_absorber import (
     ShockAbsorber,
     ShockAbsorberParameters,
@@ -52,7 +52,7 @@ ALL = [strut(), strut(TWO_CHAMBERS), FULL]
 def test_gas_follows_the_polytropic_law():
     law = StrutLaw(strut())
     for s in (0.01, 0.2, 0.4):
-        gas = law.parts(s, 0.0, 0.0, strut().tunables)[0]
+        gas = law.forces(s, 0.0, 0.0, strut().tunables)[0]
         assert gas == pytest.approx(45e3 * (1 - s / 0.52) ** -1.4, rel=1e-14)
 
 
@@ -91,14 +91,14 @@ def test_second_chamber_softens_the_spring_once_its_piston_moves():
     )
     both = StrutLaw(strut(TWO_CHAMBERS))
     p, q = alone._p.tunables, both._p.tunables
-    assert both.parts(0.2, 0, 0, q)[0] == alone.parts(0.2, 0, 0, p)[0]
-    assert both.parts(0.29, 0, 0, q)[0] < 0.5 * alone.parts(0.29, 0, 0, p)[0]
+    assert both.forces(0.2, 0, 0, q)[0] == alone.forces(0.2, 0, 0, p)[0]
+    assert both.forces(0.29, 0, 0, q)[0] < 0.5 * alone.forces(0.29, 0, 0, p)[0]
 
 
 @pytest.mark.parametrize("parameters", ALL)
 def test_force_is_exactly_zero_at_rest(parameters):
     law = StrutLaw(parameters)
-    assert law.force(0.0, 0.0, 0.0, parameters.tunables) == 0.0
+    assert law.forces(0.0, 0.0, 0.0, parameters.tunables).total == 0.0
     assert law.energy(0.0, parameters.tunables) == pytest.approx(0.0, abs=1e-9)
 
 
@@ -107,12 +107,12 @@ def test_force_is_exactly_zero_at_rest(parameters):
 def test_force_is_continuous_in_stroke_and_rate(parameters, share, rate):
     law, p = StrutLaw(parameters), parameters.tunables
     s = share * parameters.max_stroke
-    f = law.force(s, rate, 3e4, p)
+    f = law.forces(s, rate, 3e4, p).total
     step = 1e-9
     # Largest slope: gas tangent and stop, with damping at 4 m/s; friction over rate.
-    slope = abs(law.force(s + 1e-5, rate, 3e4, p) - f) / 1e-5 + 1e9
-    assert abs(law.force(s + step, rate, 3e4, p) - f) < 10 * slope * step
-    assert abs(law.force(s, rate + step, 3e4, p) - f) < 10 * slope * step
+    slope = abs(law.forces(s + 1e-5, rate, 3e4, p).total - f) / 1e-5 + 1e9
+    assert abs(law.forces(s + step, rate, 3e4, p).total - f) < 10 * slope * step
+    assert abs(law.forces(s, rate + step, 3e4, p).total - f) < 10 * slope * step
 
 
 @pytest.mark.parametrize("parameters", ALL)
@@ -120,7 +120,7 @@ def test_force_is_continuous_in_stroke_and_rate(parameters, share, rate):
 def test_static_force_rises_with_stroke(parameters, share):
     law, p = StrutLaw(parameters), parameters.tunables
     s = share * parameters.max_stroke
-    assert law.force(s + 1e-4, 0.0, 0.0, p) > law.force(s, 0.0, 0.0, p)
+    assert law.forces(s + 1e-4, 0.0, 0.0, p).total > law.forces(s, 0.0, 0.0, p).total
 
 
 @pytest.mark.parametrize("parameters", ALL)
@@ -132,7 +132,7 @@ def test_static_force_rises_with_stroke(parameters, share):
 def test_strut_never_makes_energy(parameters, share, rate, side):
     law, p = StrutLaw(parameters), parameters.tunables
     s = share * parameters.max_stroke
-    assert law.dissipated_power(s, rate, side, p) >= 0.0
+    assert law.forces(s, rate, side, p).dissipating * rate >= 0.0
 
 
 @pytest.mark.parametrize("parameters", ALL)
@@ -141,8 +141,8 @@ def test_stored_plus_dissipated_is_the_power_of_the_force(parameters, share, rat
     law, p = StrutLaw(parameters), parameters.tunables
     s, h = share * parameters.max_stroke, 1e-6
     stored = (law.energy(s + h, p) - law.energy(s - h, p)) / (2 * h) * rate
-    power = law.force(s, rate, 2e4, p) * rate
-    balance = stored + law.dissipated_power(s, rate, 2e4, p) - power
+    power = law.forces(s, rate, 2e4, p).total * rate
+    balance = stored + law.forces(s, rate, 2e4, p).dissipating * rate - power
     # Central difference over a kink: half the jump of slope (1e8 N/m) times h.
     assert abs(balance) < 1e-6 * abs(power) + 60.0 * abs(rate) + 1e-6
 
@@ -151,17 +151,17 @@ def test_stored_plus_dissipated_is_the_power_of_the_force(parameters, share, rat
 def test_stops_push_only(rate, depth):
     parameters = strut(stop_damping=5.0)
     law, p = StrutLaw(parameters), parameters.tunables
-    *_, elastic, damper = law.parts(0.468 + depth, -rate, 0.0, p)
+    *_, elastic, damper = law.forces(0.468 + depth, -rate, 0.0, p)
     assert elastic + damper >= 0.0
-    *_, elastic, damper = law.parts(-depth, rate, 0.0, p)
+    *_, elastic, damper = law.forces(-depth, rate, 0.0, p)
     assert elastic + damper <= 0.0
 
 
 def test_damping_is_quadratic_with_two_coefficients_and_metering():
     law, p = StrutLaw(FULL), FULL.tunables
-    assert law.parts(0.3, 2.0, 0.0, p)[1] == pytest.approx(2.0 * 45e3 * 4.0)
-    assert law.parts(0.3, -2.0, 0.0, p)[1] == pytest.approx(-180e3 * 4.0)
-    assert law.parts(0.05, -1.0, 0.0, p)[1] == pytest.approx(-1.5 * 180e3)
+    assert law.forces(0.3, 2.0, 0.0, p)[1] == pytest.approx(2.0 * 45e3 * 4.0)
+    assert law.forces(0.3, -2.0, 0.0, p)[1] == pytest.approx(-180e3 * 4.0)
+    assert law.forces(0.05, -1.0, 0.0, p)[1] == pytest.approx(-1.5 * 180e3)
 
 
 def test_bearing_reactions_are_those_of_a_lever():
@@ -173,11 +173,11 @@ def test_bearing_reactions_are_those_of_a_lever():
 
 def test_friction_is_the_share_of_gas_force_and_reactions_against_the_rate():
     law, p = StrutLaw(FULL), FULL.tunables
-    gas = law.parts(0.1, 0.0, 0.0, p)[0]
+    gas = law.forces(0.1, 0.0, 0.0, p)[0]
     full = 0.05 * gas + 0.08 * bearing_reactions(2e4, 0.1, 0.9, 0.6)
-    assert law.parts(0.1, 1.0, 2e4, p)[2] == pytest.approx(full, rel=3e-4)
-    assert law.parts(0.1, -1.0, 2e4, p)[2] == pytest.approx(-full, rel=3e-4)
-    assert law.parts(0.1, 0.0, 2e4, p)[2] == 0.0
+    assert law.forces(0.1, 1.0, 2e4, p)[2] == pytest.approx(full, rel=3e-4)
+    assert law.forces(0.1, -1.0, 2e4, p)[2] == pytest.approx(-full, rel=3e-4)
+    assert law.forces(0.1, 0.0, 2e4, p)[2] == 0.0
 
 
 def evaluate(system, ports, strut_state, side_load=None, change=None):
@@ -198,10 +198,10 @@ def test_system_gives_the_law_on_its_ports():
         [0.2, 1.5],
         1e4,
     )
-    assert force[0] == law.force(0.2, 1.5, 1e4, p)
+    assert force[0] == law.forces(0.2, 1.5, 1e4, p).total
     assert parts.sum() == pytest.approx(force[0], rel=1e-14)
     assert energy[0] == law.energy(0.2, p)
-    assert power[0] == law.dissipated_power(0.2, 1.5, 1e4, p)
+    assert power[0] == law.forces(0.2, 1.5, 1e4, p).dissipating * 1.5
     assert pressure[0] == parts[0] / 0.02
 
 
