@@ -29,6 +29,7 @@ from drake_landing.gear_parts import (
 from drake_landing.gear_parts import RigidPart as RigidPart
 from drake_landing.gear_parts import Vector3 as Vector3
 
+_WIDEST = 5.0  # m
 _PIVOT_AXES = "the pivot's axis is the lateral one"
 
 
@@ -78,6 +79,11 @@ class LandingGear(Data):
         offsets = self.wheel_offsets
         if any(b <= a for a, b in pairwise(offsets)):
             raise ValueError(f"wheel_offsets {offsets} m must be strictly ascending")
+        if max(map(abs, offsets)) > _WIDEST:
+            raise ValueError(
+                f"wheel_offsets: found {offsets} m, expected within {_WIDEST:g} m of "
+                "the middle of the axle"
+            )
         return self
 
     @model_validator(mode="after")

@@ -84,7 +84,7 @@ class Wheel(Data):
 class Tyre(Data):
     """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'."""
 
-    radius: Positive = Field(description="unloaded radius, m, > 0")
+    radius: Positive = Field(le=2, description="unloaded radius, m, > 0 and <= 2")
     stiffness: Positive | None = Field(
         default=None, description="vertical stiffness, N/m, > 0; or give load_table"
     )
@@ -137,6 +137,21 @@ class Tyre(Data):
             raise ValueError("give either damping or damping_table")
         return self
 
+    @model_validator(mode="after")
+    def _within_radius(self) -> Self:
+        ends = {
+            "load_table": self.load_table and self.load_table[-1][0],
+            "damping_table": self.damping_table and self.damping_table[-1][0],
+            "bottoming_deflection": self.bottoming_deflection,
+        }
+        for name, deflection in ends.items():
+            if deflection and deflection > self.radius:
+                raise ValueError(
+                    f"{name}: found a deflection of {deflection:g} m, expected less "
+                    f"than the radius, {self.radius:g} m"
+                )
+        return self
+
 
 class GasChamber(Data):
     """A second gas chamber behind a floating piston."""
@@ -144,7 +159,9 @@ class GasChamber(Data):
     precharge_force: Positive = Field(
         description="strut force at which the floating piston starts to move, N"
     )
-    gas_length: Positive = Field(description="volume over main piston area, m")
+    gas_length: Positive = Field(
+        le=10, description="volume over main piston area, m, > 0 and <= 10"
+    )
     gas_exponent: float = Field(
         default=1.4, ge=1.0, le=2.0, description="1 isothermal, 1.4 adiabatic"
     )
@@ -156,8 +173,12 @@ class ShockAbsorber(Data):
     The gas force is precharge_force·(1 - stroke/gas_length)^(-gas_exponent).
     """
 
-    stroke: Positive = Field(description="mechanical stroke to the stop, m, > 0")
-    gas_length: Positive = Field(description="length of the gas column, m, > stroke")
+    stroke: Positive = Field(
+        le=2, description="mechanical stroke to the stop, m, > 0 and <= 2"
+    )
+    gas_length: Positive = Field(
+        le=10, description="length of the gas column, m, > stroke and <= 10"
+    )
     precharge_force: Positive = Field(
         description="gas force fully extended, N, > 0; the extension stop carries it"
     )
@@ -212,6 +233,17 @@ class ShockAbsorber(Data):
                 f"gas_length {length} m must exceed the stroke {self.stroke} m: at "
                 "full stroke some gas is left"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _metered_over_the_stroke(self) -> Self:
+        for name in ("compression_metering", "rebound_metering"):
+            table = getattr(self, name)
+            if table and table[-1][0] > 3.0 * self.stroke:
+                raise ValueError(
+                    f"{name}: found a stroke of {table[-1][0]:g} m, expected about "
+                    f"{self.stroke:g} m, the mechanical stroke"
+                )
         return self
 
 
