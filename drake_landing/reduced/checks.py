@@ -16,6 +16,8 @@ import scipy.sparse as sp
 
 from drake_landing.reduced.make import Reduced
 from drake_landing.reduced.model import ReducedModel, mass_properties
+from drake_landing.show.mesh import drawn_mesh
+from drake_landing.show.modes import motions
 from fem.modes import Modes, normal_modes
 from fem.structure import Structure
 
@@ -35,7 +37,7 @@ class ReductionChecks:
         rigid: direction, frequency in Hz that K gives the rigid motion, grounding:
             largest force or moment that a unit motion meets over the largest term
             of K of that kind, effective mass of the generalised coordinates over all.
-        modes: mode, full_hz, reduced_hz, error, mac.
+        modes: mode, full_hz, reduced_hz, error, mac, motion: what moves, in words.
         counts: below_hz, and the number of elastic modes of the reduced model.
         rigid_modes: number of modes below 0.01 Hz: round-off of a large condensation
             lifts rigid motions off zero.
@@ -49,7 +51,10 @@ class ReductionChecks:
 
 
 def check_reduction(
-    structure: Structure, reduced: Reduced, highest_hz: float = 50.0
+    structure: Structure,
+    reduced: Reduced,
+    highest_hz: float = 50.0,
+    full: Modes | None = None,
 ) -> ReductionChecks:
     """Compares a reduced model with the full one.
 
@@ -57,7 +62,9 @@ def check_reduction(
         structure: the full model.
         reduced: its reduction.
         highest_hz: modes of the full model up to here are compared.
+        full: these modes, if they are known.
     """
+    full = full_modes(structure, highest_hz) if full is None else full
     model = reduced.model
     own = reduced_modes(model, max(LIMITS_HZ[-1], 1.5 * highest_hz))
     free = int(np.sum(own.frequency_hz < _STILL))
@@ -71,9 +78,19 @@ def check_reduction(
     return ReductionChecks(
         mass=_mass_table(structure, model),
         rigid=_rigid_table(structure, model),
-        modes=_mode_table(structure, reduced, highest_hz),
+        modes=_mode_table(structure, reduced, full),
         counts=counts,
         rigid_modes=free,
+    )
+
+
+def full_modes(structure: Structure, highest_hz: float) -> Modes:
+    """Normal modes of the full model below a frequency, rigid ones included."""
+    return normal_modes(
+        structure.stiffness,
+        structure.mass,
+        band=(0.0, highest_hz),
+        rigid_body=structure.rigid_body,
     )
 
 
@@ -131,28 +148,22 @@ def _rigid_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
     )
 
 
-def _mode_table(
-    structure: Structure, reduced: Reduced, highest_hz: float
-) -> pd.DataFrame:
+def _mode_table(structure: Structure, reduced: Reduced, full: Modes) -> pd.DataFrame:
     """Pairs modes by their shapes; MAC is weighted with the full mass."""
-    full = normal_modes(
-        structure.stiffness,
-        structure.mass,
-        band=(0.0, highest_hz),
-        rigid_body=structure.rigid_body,
-    )
     reduction = reduced.reduction
     own = normal_modes(
         sp.csr_matrix(reduction.stiffness),
         sp.csr_matrix(reduction.mass),
         count=min(full.count + max(20, full.count // 2), reduction.size),
     )
-    shapes = structure.mass @ full.shape[:, full.rigid :]
+    elastic = full.shape[:, full.rigid :]
+    shapes = structure.mass @ elastic
     free = int(np.sum(own.frequency_hz < _STILL))
     expanded = reduction.expand(own.shape[:, free:])
     size = np.einsum("fi,fi->i", expanded, structure.mass @ expanded)
     mac = (shapes.T @ expanded) ** 2 / size
     at, partner = scipy.optimize.linear_sum_assignment(-mac)
+    names = motions(structure, drawn_mesh(structure), elastic)
     hertz, found = full.frequency_hz[full.rigid :], own.frequency_hz[free:]
     return pd.DataFrame(
         {
@@ -161,5 +172,6 @@ def _mode_table(
             "reduced_hz": found[partner],
             "error": found[partner] / hertz[at] - 1.0,
             "mac": mac[at, partner],
+            "motion": [names[k] for k in at],
         }
     )

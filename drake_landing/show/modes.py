@@ -75,16 +75,29 @@ def shown_modes(structure: Structure, mesh: DrawnMesh, count: int) -> ShownModes
     grids = len(structure.points.grid_id)
     rows = structure.operator(structure.points.grid_id, (1, 2, 3), frame="basic")
     shape = (rows @ shape_f).reshape(grids, 3, -1)
-    energy = _energy(structure, mesh, shape_f)
-    symmetry = _symmetry(mesh.p, shape)
-    labels = [c.name for c in mesh.components] + ["other"]
+    energy, symmetry = _energy(structure, mesh, shape_f), _symmetry(mesh.p, shape)
     return ShownModes(
         frequency_hz=modes.frequency_hz[elastic],
         shape=shape,
         energy=energy,
         symmetry=symmetry,
-        names=tuple(_name(e, s, labels) for e, s in zip(energy.T, symmetry)),
+        names=_names(mesh, energy, symmetry),
     )
+
+
+def motions(structure: Structure, mesh: DrawnMesh, shape_f: Float64) -> tuple[str, ...]:
+    """What moves in modes (f, m), in words: symmetry, components and their energy."""
+    ids = structure.points.grid_id
+    shape = structure.operator(ids, (1, 2, 3), frame="basic") @ shape_f
+    symmetry = _symmetry(mesh.p, shape.reshape(len(ids), 3, -1))
+    return _names(mesh, _energy(structure, mesh, shape_f), symmetry)
+
+
+def _names(
+    mesh: DrawnMesh, energy: Float64, symmetry: npt.NDArray[np.int64]
+) -> tuple[str, ...]:
+    labels = [c.name for c in mesh.components] + ["other"]
+    return tuple(_name(e, s, labels) for e, s in zip(energy.T, symmetry))
 
 
 def _energy(structure: Structure, mesh: DrawnMesh, shape_f: Float64) -> Float64:

@@ -40,7 +40,5 @@ def test_the_shell_aircraft_is_sized(level: str) -> None:
     found = solve(level)
     assert found.root_moment == pytest.approx(0.985 * SOURCE_ROOT_MOMENT, rel=0.02)
     assert 1.0 < found.tip_deflection < 2.5, "3 to 7 % of the span"
-    # At most a corner of spar caps at the side of the body is beyond its strength.
-    assert (found.stress.margin < 0.0).sum() <= 4
-    assert found.worst.margin > (0.0 if level == "pre" else -0.15)
+    assert found.worst.margin > 0.05, "every sheet and bar holds at ultimate load"
     assert found.stress.stress.quantile(0.99) > 100e6, "it works for its living"
