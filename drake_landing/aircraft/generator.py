@@ -19,6 +19,7 @@ from drake_landing.aircraft.reference_axis import (
     Reference,
     reference_nodes,
 )
+from fem.aside import written_aside
 from fem.errors import InputError, nearest
 
 
@@ -104,9 +105,8 @@ def write_model(
     if target.is_dir():
         raise InputError(f"{target}: is a folder, expected the name of a file")
     model = build(level, topology)
-    part = target.with_name(target.name + ".part")
-    part.write_text(model.deck, encoding="ascii")
-    part.replace(target)
+    with written_aside(target) as part:
+        part.write_text(model.deck, encoding="ascii")
     return model
 
 

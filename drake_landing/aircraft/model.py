@@ -53,6 +53,17 @@ class AircraftModel:
         """E.g. DLR-D150-CON."""
         return f"{facts('overall')['name']}-{self.level.upper()}"
 
+    def position_of(self, grid: int) -> Float64:
+        """(3,) position of a grid in B, m.
+
+        Raises:
+            ValueError: the model has no such grid.
+        """
+        row = int(np.searchsorted(self.grid_id, grid))
+        if row == len(self.grid_id) or self.grid_id[row] != grid:
+            raise ValueError(f"{self.name}: no grid {grid}")
+        return self.position[row]
+
 
 @dataclass
 class ModelBuilder:
