@@ -44,7 +44,7 @@ class Cache:
 
     def __init__(self, folder: Path | None, limit_gb: float = 8.0) -> None:
         self.folder = folder
-        self._limit = limit_gb * 1e9
+        self.limit_gb = limit_gb
 
     @classmethod
     def of_user(cls) -> "Cache":
@@ -85,6 +85,25 @@ class Cache:
             self._store(place, arrays)
             self._make_room(keep=place)
 
+    def entries(self) -> dict[str, int]:
+        """Name of each entry -> bytes, the longest unused one first."""
+        return {place.name: size for _, size, place in sorted(self._entries())}
+
+    def clear(self) -> None:
+        """Deletes all entries."""
+        for _, _, place in self._entries():
+            shutil.rmtree(place, ignore_errors=True)
+
+    def _entries(self) -> list[tuple[float, int, Path]]:
+        """Time of last use, bytes and folder of each."""
+        if self.folder is None or not self.folder.is_dir():
+            return []
+        return [
+            (p.stat().st_mtime, sum(f.stat().st_size for f in p.iterdir()), p)
+            for p in self.folder.iterdir()
+            if (p / _MANIFEST).is_file()
+        ]
+
     def _load(self, place: Path) -> Arrays | None:
         if not place.is_dir():
             return None
@@ -121,15 +140,10 @@ class Cache:
             shutil.rmtree(aside, ignore_errors=True)
 
     def _make_room(self, keep: Path) -> None:
-        assert self.folder is not None
-        entries = [
-            (p.stat().st_mtime, sum(f.stat().st_size for f in p.iterdir()), p)
-            for p in self.folder.iterdir()
-            if (p / _MANIFEST).is_file()
-        ]
+        entries = self._entries()
         total = sum(size for _, size, _ in entries)
         for _, size, place in sorted(entries):
-            if total <= self._limit:
+            if total <= 1e9 * self.limit_gb:
                 return
             if place != keep:
                 shutil.rmtree(place, ignore_errors=True)

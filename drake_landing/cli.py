@@ -25,14 +25,34 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 
-Out = Annotated[
-    Path | None,
-    typer.Option("--out", help="folder of the results; default out/<case name>"),
-]
+
+def _out(default: str) -> Any:
+    """Option of the folder for results."""
+    return typer.Option("--out", help=f"folder of the results; default {default}")
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        from importlib.metadata import version
+
+        print(f"drake-landing {version('drake-landing')}, drake {version('drake')}")
+        raise typer.Exit
+
+
+@app.callback()
+def common(
+    version: Annotated[
+        bool,
+        typer.Option(
+            "--version", callback=_show_version, is_eager=True, help="and that of Drake"
+        ),
+    ] = False,
+) -> None:
+    """What all commands have in common."""
 
 
 @app.command()
-def demo(out: Out = None) -> None:
+def demo(out: Annotated[Path | None, _out("out/demo")] = None) -> None:
     """The conceptual aircraft touches down: the whole process, no input needed."""
     from importlib.resources import files
 
@@ -40,16 +60,25 @@ def demo(out: Out = None) -> None:
 
     text = files("drake_landing").joinpath("demo.yaml").read_text(encoding="utf-8")
     _run(parse_case(text, file="demo.yaml"), out)
+    print(_AFTER_DEMO)
 
 
 @app.command()
 def run(
-    case: Annotated[Path, typer.Argument(help="case file (YAML)")], out: Out = None
+    case: Annotated[Path, typer.Argument(help="case file (YAML)")],
+    out: Annotated[Path | None, _out("out/<name of the case>")] = None,
+    practices: Annotated[
+        bool,
+        typer.Option(
+            "--practices",
+            help="compare with rigid-airframe gear loads and with static slices",
+        ),
+    ] = False,
 ) -> None:
     """The whole process for a case: landing, direct transient, comparison, report."""
     from drake_landing.cases_io import load_case
 
-    _run(load_case(case), out)
+    _run(load_case(case), out, practices=practices)
 
 
 @app.command()
@@ -58,8 +87,14 @@ def check(
     schema: Annotated[
         bool, typer.Option("--schema", help="print the JSON schema of case files")
     ] = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="also all values, defaults included")
+    ] = False,
+    thorough: Annotated[
+        bool, typer.Option("--thorough", help="factorise very large models too")
+    ] = False,
 ) -> None:
-    """Validates and explains a case without running it."""
+    """Explains a case after a dry run: deck, mechanisms, gears, initial state."""
     from drake_landing.cases_io import case_text, load_case, schema_text
     from fem.errors import InputError
 
@@ -71,8 +106,11 @@ def check(
     checked = load_case(case)
     from drake_landing.explain import explain
 
-    explained = explain(checked)
-    print(f"{case_text(checked)}\n{explained}")
+    print(explain(checked, _default_folder(checked), thorough=thorough))
+    if everything:
+        print(f"\nall values, defaults included:\n\n{case_text(checked)}", end="")
+    else:
+        print(f"run it: drake-landing run {case}; all its values: check --all {case}")
 
 
 @app.command()
@@ -105,23 +143,24 @@ def model(
 @app.command()
 def show(
     deck: Annotated[Path, typer.Argument(metavar="MODEL.bdf", help="Nastran deck")],
-    out: Annotated[
-        Path | None, typer.Option("--out", help="folder; default out/<deck name>")
-    ] = None,
+    out: Annotated[Path | None, _out("out/show/<name of the deck>")] = None,
     modes: Annotated[int, typer.Option("--modes", help="elastic modes to show")] = 10,
 ) -> None:
     """Pictures of a deck: mesh by component, modes, a viewer that needs no server."""
+    from drake_landing.output import claim
     from drake_landing.show import show_model
 
-    show_model(deck, out or Path("out", deck.stem), modes)
+    folder = claim(out or Path("out", "show", deck.stem), f"show {deck.name}")
+    show_model(deck, folder, modes)
 
 
 @app.command()
 def study(
     name: Annotated[str, typer.Argument(help="modes, topology or full")],
-    out: Out = None,
+    out: Annotated[Path | None, _out("out/study/<name>")] = None,
 ) -> None:
     """The paper's studies: numbers of modes, gear topologies, the full aircraft."""
+    from drake_landing.output import claim
     from drake_landing.progress import reporter
     from drake_landing.studies import PLANS, run_study
     from drake_landing.studies.findings import findings
@@ -132,7 +171,7 @@ def study(
             f"study: found '{name}', expected one of {', '.join(PLANS)}"
             + nearest(name, PLANS)
         )
-    folder = out or Path("out", name)
+    folder = claim(out or Path("out", "study", name), f"study {name}")
     with reporter() as progress:
         done = run_study(PLANS[name], folder, progress)
     for row in findings(done).to_dict("records"):
@@ -150,9 +189,7 @@ def reduce(
         str | None,
         typer.Option("--interface", help="'SET 2' or '11, 20 THRU 30'; default ASET"),
     ] = None,
-    out: Annotated[
-        Path | None, typer.Option("--out", help="folder; default out/<deck name>")
-    ] = None,
+    out: Annotated[Path | None, _out("out/reduce/<name of the deck>")] = None,
     highest: Annotated[
         float, typer.Option("--highest", help="craig-bampton: interior modes to, Hz")
     ] = 150.0,
@@ -164,20 +201,55 @@ def reduce(
     ] = 50.0,
 ) -> None:
     """Reduces a deck to interface grids; checks; HDF5, DMIG punch and OUTPUT4."""
+    from drake_landing.output import claim
     from drake_landing.reduced.command import reduce_deck
 
-    folder = out or Path("out", deck.stem)
+    folder = claim(out or Path("out", "reduce", deck.stem), f"reduce {deck.name}")
     options = {"highest_hz": highest, "count": count, "compare_hz": compare}
     print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
 
 
-def _run(case: "Case", out: Path | None) -> None:
+@app.command()
+def cache(
+    clear: Annotated[bool, typer.Option("--clear", help="delete what is kept")] = False,
+) -> None:
+    """Where modes are kept between runs, and how much."""
+    from drake_landing.cache import Cache
+
+    store = Cache.of_user()
+    if store.folder is None:
+        print("nothing is kept: DRAKE_LANDING_CACHE=off")
+        return
+    entries = store.entries()
+    size = f"{len(entries)} entries, {sum(entries.values()) / 1e6:,.1f} MB"
+    if clear:
+        store.clear()
+        print(f"{store.folder}: deleted {size}")
+        return
+    print(f"{store.folder}: {size} of at most {store.limit_gb:g} GB")
+
+
+_AFTER_DEMO = """
+One elastic mode is on purpose: this is the functional test of the paper, which shows
+how far a single mode gets. With the 76 modes below 50 Hz both models agree far better:
+
+  drake-landing check cases/d150_con_50hz.yaml    what it does, before it runs
+  drake-landing run cases/d150_con_50hz.yaml
+  drake-landing model con --out con.bdf           its deck, a start for one of yours"""
+
+
+def _default_folder(case: "Case") -> Path:
+    return Path("out", case.name)
+
+
+def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
+    from drake_landing.output import claim
     from drake_landing.process import run_case
     from drake_landing.progress import reporter
 
-    folder = out or Path("out", case.name)
+    folder = claim(out or _default_folder(case), f"run {case.name}")
     with reporter() as progress:
-        result = run_case(case, folder, progress)
+        result = run_case(case, folder, progress, practices=practices)
     print(_summary(result, folder))
 
 

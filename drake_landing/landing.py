@@ -75,7 +75,9 @@ def build_landing(
             list(monitoring.values()),
         )
     except ValueError as error:
-        raise InputError(f"gears: {error}") from None
+        text = str(error)
+        known = text.startswith(("scenario", "gears"))
+        raise InputError(text if known else f"gears: {text}") from None
 
 
 def fast_mode_notices(body: ModalBody, simulation: Simulation) -> tuple[str, ...]:

@@ -22,9 +22,18 @@ import pandas as pd
 
 from drake_landing.handover import AttachmentLoads
 from drake_landing.history import UNITS, LandingHistory
+from fem.aside import written_aside
 from fem.envelope import Envelope
 from systems.modal_body import ModalBody
 
+# What a run writes.
+FILES = (
+    "report.html",
+    "landing.html",
+    "results.h5",
+    "landing_sol109.bdf",
+    "tables (CSV)",
+)
 _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
 
 
@@ -34,18 +43,13 @@ def versions() -> dict[str, str]:
     return {**found, "python": platform.python_version()}
 
 
-def write_aside(path: Path, write: Callable[[Path], None]) -> None:
+def write_aside(path: Path, write: Callable[[Path], object]) -> None:
     """Calls `write` with a temporary name in the same folder, then renames.
 
     A reader never meets a half-written file, and an interrupted run leaves the old one.
     """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.part")
-    try:
-        write(temporary)
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with written_aside(path) as part:
+        write(part)
 
 
 def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:

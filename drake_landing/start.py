@@ -51,7 +51,7 @@ def make_scenario_diagram(
     """
     if scenario.braking and not any(gear.brake for gear in gears):
         raise ValueError(
-            f"scenario: braking {scenario.braking:g}, but no gear has a brake"
+            f"scenario.braking: found {scenario.braking:g}, but no gear has a brake"
         )
     ahead = min(p[0] for gear in gears for p in wheel_centres(gear).values())
     return MakeLandingDiagram(

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.handover import AttachmentLoads
+from fem.aside import written_aside
 from fem.deck.case_control import Subcase
 from fem.deck.lexer import read_cards
 from fem.deck.sections import split_sections
@@ -78,11 +79,9 @@ def transient_deck(
 
 
 def write_transient_deck(path: Path, lines: Iterable[str]) -> None:
-    """Writes under a temporary name, then renames."""
-    temporary = path.with_name(path.name + ".part")
-    with temporary.open("w", encoding="utf-8") as file:
+    """Writes the file, complete or not at all."""
+    with written_aside(path) as part, part.open("w", encoding="utf-8") as file:
         file.writelines(line + "\n" for line in lines)
-    temporary.replace(path)
 
 
 def model_selections(subcase: Subcase) -> list[str]:

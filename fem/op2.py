@@ -15,6 +15,7 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
+from fem.aside import written_aside
 from fem.connectivity import element_grids
 from fem.op2_elements import FORCES, PLIES, STRESSES, Elements, ply_words, words
 from fem.op2_records import DEVICE, MODAL, STATIC, TRANSIENT, Kind, Op2File, State
@@ -62,21 +63,20 @@ def write_op2(results: Path, structure: Structure, path: Path) -> list[str]:
     Returns:
         Tables of element results that have no place in an OP2 file.
     """
-    part = path.with_name(f".{path.name}.part")
     left: list[str] = []
-    try:
-        with h5py.File(results) as source, part.open("wb") as stream:
-            file = Op2File(stream)
-            for solution in solutions(source):
-                states = _states(solution, structure)
-                series = _point_series(solution)
-                elements, missing = _element_series(solution, structure)
-                left += missing
-                _write(file, series + elements, states)
-            file.close()
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
+    with (
+        written_aside(path) as part,
+        h5py.File(results) as source,
+        part.open("wb") as stream,
+    ):
+        file = Op2File(stream)
+        for solution in solutions(source):
+            states = _states(solution, structure)
+            series = _point_series(solution)
+            elements, missing = _element_series(solution, structure)
+            left += missing
+            _write(file, series + elements, states)
+        file.close()
     return left
 
 

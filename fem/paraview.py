@@ -16,6 +16,7 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
+from fem.aside import written_aside
 from fem.connectivity import element_grids
 from fem.elements.stress_measures import plane_von_mises
 from fem.result_reading import ElementResult, PointResult, Solution, solutions
@@ -75,13 +76,8 @@ def write_paraview(results: Path, structure: Structure, folder: Path) -> list[Pa
             name = solution.analysis
             name += f"_{solution.subcase}" if solution.subcase else ""
             path = folder / f"{results.stem}_{name}.vtkhdf"
-            part = path.with_name(f".{path.name}.part")
-            try:
-                with h5py.File(part, "w") as file:
-                    _write(file, structure, cells, solution)
-                part.replace(path)
-            finally:
-                part.unlink(missing_ok=True)
+            with written_aside(path) as part, h5py.File(part, "w") as file:
+                _write(file, structure, cells, solution)
             written.append(path)
     return written
 

@@ -4,6 +4,7 @@ The file is written under a temporary name and takes its own when it is complete
 Histories of transients are written while they are computed.
 """
 
+from contextlib import ExitStack
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -13,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
+from fem.aside import written_aside
 from fem.deck.case_control import Selection
 from fem.grid_forces import GridBalance
 from fem.observation import Chunk, Quantity
@@ -34,11 +36,13 @@ class ResultFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self._part = path.with_name(f".{path.name}.part")
+        self._open = ExitStack()
 
     def __enter__(self) -> Self:
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        self.file = h5py.File(self._part, "w")
+        with ExitStack() as stack:
+            part = stack.enter_context(written_aside(self.path))
+            self.file = stack.enter_context(h5py.File(part, "w"))
+            self._open = stack.pop_all()
         return self
 
     def __exit__(
@@ -47,11 +51,7 @@ class ResultFile:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        self.file.close()
-        if kind is None:
-            self._part.replace(self.path)
-        else:
-            self._part.unlink(missing_ok=True)
+        self._open.__exit__(kind, error, trace)
 
     def write_model(self, structure: Structure) -> None:
         """Grids, mass properties and what the deck had to say."""

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from drake_landing.show.mesh import RIGID, Component, DrawnMesh
 from drake_landing.show.modes import ShownModes
+from fem.aside import written_aside
 
 if TYPE_CHECKING:
     import pyvista
@@ -156,7 +157,6 @@ def _look(
 
 
 def _save(plotter: "pyvista.Plotter", path: Path) -> None:
-    part = path.with_name(f"{path.stem}.part{path.suffix}")
-    plotter.screenshot(str(part))
-    plotter.close()
-    part.replace(path)
+    with written_aside(path) as part:
+        plotter.screenshot(str(part))
+        plotter.close()
