@@ -11,7 +11,7 @@ from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint
 from pydrake.systems.framework import Context
 
 from drake_landing.diagram import LandingDiagram
-from drake_landing.initial_state import attitude, place_gears, tyre_clearances
+from drake_landing.initial_state import attitude, tyre_clearances
 from systems.rotations import quaternion_from_rotation
 
 Float64 = npt.NDArray[np.float64]
@@ -92,7 +92,7 @@ def set_flight_equilibrium(
     x[7:10] = velocity
     x[2] += clearance - min(tyre_clearances(landing, context).values())
     airframe.SetContinuousState(x)
-    place_gears(landing, context)
+    landing.attachment.place_fittings(context)
 
 
 class _Rest:
@@ -187,7 +187,7 @@ class _Rest:
         self._airframe.SetContinuousState(x)
         for joint, value in zip(self._joints, u[at:]):
             _set_position(joint, self._plant, float(value))
-        place_gears(self._landing, self._context)
+        self._landing.attachment.place_fittings(self._context)
 
     def _residual(self, u: Float64) -> Float64:
         self._set(u)
@@ -234,7 +234,7 @@ def _roll(
     forward = np.array([-np.cos(heading), np.sin(heading), 0.0])
     x[7:10] = speed * forward
     airframe.SetContinuousState(x)
-    place_gears(landing, context)
+    landing.attachment.place_fittings(context)
     plant = landing.plant.GetMyMutableContextFromRoot(context)
     kinematics = landing.wheel_kinematics
     for gear in landing.gears:

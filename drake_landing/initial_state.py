@@ -1,11 +1,7 @@
 """Initial state of a landing: steady flight, the lowest tyre just off the ground."""
 
-import math
-
 import numpy as np
 import numpy.typing as npt
-from pydrake.math import RigidTransform, RotationMatrix
-from pydrake.multibody.math import SpatialVelocity
 from pydrake.systems.framework import Context
 
 from drake_landing.diagram import LandingDiagram
@@ -74,7 +70,7 @@ def set_initial_state(
         landing.airframe.set_state(
             airframe, p_WG=[x, y, z], quaternion=quaternion, v_WG=v_WG, w_B=w_B
         )
-        place_gears(landing, context)
+        landing.attachment.place_fittings(context)
 
     if height is None:
         place(0.0)
@@ -82,30 +78,6 @@ def set_initial_state(
     else:
         place(height)
         _require_above_runway(landing, context)
-
-
-def place_gears(landing: LandingDiagram, context: Context) -> None:
-    """Puts the fittings at the airframe's nodes, as the state of the airframe wants.
-
-    Joints of the gears stay as they are.
-    """
-    airframe = landing.airframe.GetMyContextFromRoot(context)
-    plant, of_plant = landing.plant, landing.plant.GetMyMutableContextFromRoot(context)
-    poses = landing.airframe.GetOutputPort("node_pose").Eval(airframe).reshape(-1, 12)
-    velocities = landing.airframe.GetOutputPort("node_velocity").Eval(airframe)
-    velocities = velocities.reshape(-1, 6)
-    node = 0
-    for gear in landing.gears:
-        fitting, pose, velocity = (
-            landing.bodies[gear.name].fitting,
-            poses[node],
-            velocities[node],
-        )
-        R_WF = RotationMatrix(pose[:9].reshape(3, 3))
-        V_WF = SpatialVelocity(velocity[:3], velocity[3:])
-        plant.SetFreeBodyPose(of_plant, fitting, RigidTransform(R_WF, pose[9:]))
-        plant.SetFreeBodySpatialVelocity(of_plant, fitting, V_WF)
-        node += len(gear.attachments)
 
 
 def _require_above_runway(landing: LandingDiagram, context: Context) -> None:
@@ -119,16 +91,8 @@ def _require_above_runway(landing: LandingDiagram, context: Context) -> None:
 
 
 def tyre_clearances(landing: LandingDiagram, context: Context) -> dict[str, float]:
-    """Height of each tyre's lowest point over the runway below it, m.
-
-    Only that point: on a profile its clearance is vertical, not the nearest distance.
-    """
-    system = landing.wheel_kinematics
-    of_system = system.GetMyContextFromRoot(context)
-    heights = {}
-    for name, tire in landing.tires.items():
-        wheel = system.GetOutputPort(f"wheel_{name}").Eval(of_system)
-        x, y, z, _, _, a_z = wheel[:6].tolist()
-        reach = tire.parameters.radius * math.sqrt(1.0 - a_z * a_z)
-        heights[name] = z - reach - landing.runway.height(x, y)
-    return heights
+    """Height of each tyre's lowest point over the runway below it, m."""
+    return {
+        name: tire.clearance(tire.GetMyContextFromRoot(context))
+        for name, tire in landing.tires.items()
+    }

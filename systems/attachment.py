@@ -24,6 +24,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from pydrake.common.value import Value
+from pydrake.math import RigidTransform, RotationMatrix
+from pydrake.multibody.math import SpatialVelocity
 from pydrake.multibody.plant import ExternallyAppliedSpatialForce, MultibodyPlant
 from pydrake.multibody.tree import MultibodyForces, RigidBody
 from pydrake.systems.framework import Context, LeafSystem, ValueProducer
@@ -123,6 +125,28 @@ class Attachment(LeafSystem):
             "wrench", self._calc_wrench, {self._gap, *self._sources()}
         )
         self._declare_outputs(k)
+
+    def place_fittings(self, root_context: Context) -> None:
+        """Puts the fittings on their nodes and lets them move with these.
+
+        For initial states: set that of the airframe first. What hangs on a fitting
+        moves along; joints keep their positions and rates.
+
+        Args:
+            root_context: of the diagram that holds airframe, plant and this system.
+
+        Raises:
+            ValueError: a fitting is held along directions alone, nowhere at its origin.
+        """
+        own = self.GetMyContextFromRoot(root_context)
+        plant = self._plant.GetMyMutableContextFromRoot(root_context)
+        poses = self._pose.Eval(own).reshape(-1, 12)
+        velocities = self._velocity.Eval(own).reshape(-1, 6)
+        for i, fitting in self._pattern.origins.items():
+            R_WN, p_WN = RotationMatrix(poses[i, :9].reshape(3, 3)), poses[i, 9:]
+            V_WN = SpatialVelocity(velocities[i, :3], velocities[i, 3:])
+            self._plant.SetFreeBodyPose(plant, fitting, RigidTransform(R_WN, p_WN))
+            self._plant.SetFreeBodySpatialVelocity(plant, fitting, V_WN)
 
     def _entry(self, name: str, calc, sources) -> Any:
         producer = ValueProducer(allocate=lambda: Value(object()), calc=calc)

@@ -154,6 +154,28 @@ class HoldPattern:
         for index in range(len(self.fittings)):
             self._require_held(index)
 
+    @property
+    def origins(self) -> dict[int, RigidBody]:
+        """The point that holds the origin of each fitting -> the fitting.
+
+        Raises:
+            ValueError: a fitting has none.
+        """
+        found = {}
+        for f, fitting in enumerate(self.fittings):
+            own = [
+                i
+                for i in np.flatnonzero(self.fitting_of == f).tolist()
+                if not self._points[i].along
+            ]
+            if not own:
+                raise ValueError(
+                    f"attachment of {fitting.name()}: held along directions alone, "
+                    "expected a rigid or ball hold at its origin"
+                )
+            found[own[0]] = fitting
+        return found
+
     def _lay_out(self) -> None:
         self.stiffness, self.damping = np.zeros(self.size), np.zeros(self.size)
         for i, rows in self._guides:

@@ -17,8 +17,8 @@ s = 0 and s_0. No load reaches the airframe before touchdown.
 Energy: d(energy)/dt + dissipated_power = force × rate, energy zero at rest.
 """
 
-from dataclasses import dataclass
-from typing import NamedTuple
+from dataclasses import dataclass, replace
+from typing import Any, NamedTuple
 
 from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
@@ -141,6 +141,23 @@ class ShockAbsorberParameters:
             float(self.bearing_friction),
         ]
 
+    def with_tunables(self, values: Any) -> "ShockAbsorberParameters":
+        """These parameters with other ShockAbsorberTunables, checked as always."""
+        gas = replace(
+            self.gas,
+            precharge=values.precharge,
+            gas_length=values.gas_length,
+            exponent=values.exponent,
+        )
+        return replace(
+            self,
+            gas=gas,
+            compression_damping=values.compression_damping,
+            rebound_damping=values.rebound_damping,
+            seal_friction=values.seal_friction,
+            bearing_friction=values.bearing_friction,
+        )
+
 
 class StrutForces(NamedTuple):
     """Parts of a strut's force, N, positive apart; floats or AutoDiffXd."""
@@ -259,8 +276,8 @@ def ShockAbsorber_(T):
         | out `components` | 4 | N | gas, damping, friction, stops, positive apart |
         | out `gas_pressure` (where the area is given) | 1 | Pa | absolute |
 
-        No state. Numeric parameters: `ShockAbsorberTunables`. A side load that is not
-        connected is zero.
+        No state. Numeric parameters: `ShockAbsorberTunables`; `set_tunables`. A side
+        load that is not connected is zero.
         """
 
         def _construct(self, parameters: ShockAbsorberParameters, converter=None):
@@ -305,6 +322,40 @@ def ShockAbsorber_(T):
         @property
         def parameters(self) -> ShockAbsorberParameters:
             return self._parameters
+
+        def set_tunables(
+            self,
+            context,
+            *,
+            precharge=None,
+            gas_length=None,
+            exponent=None,
+            compression_damping=None,
+            rebound_damping=None,
+            seal_friction=None,
+            bearing_friction=None,
+        ) -> None:
+            """Sets numeric parameters in a context of this system; others stay.
+
+            Raises:
+                ValueError: a value is out of its range in ShockAbsorberParameters.
+            """
+            given = {
+                "precharge": precharge,
+                "gas_length": gas_length,
+                "exponent": exponent,
+                "compression_damping": compression_damping,
+                "rebound_damping": rebound_damping,
+                "seal_friction": seal_friction,
+                "bearing_friction": bearing_friction,
+            }
+            vector = context.get_mutable_numeric_parameter(self._tunables)
+            values = ShockAbsorberTunables(vector.CopyToVector())
+            for name, value in given.items():
+                if value is not None:
+                    setattr(values, name, value)
+            self._parameters.with_tunables(values)
+            vector.SetFromVector(values[:])
 
         def _inputs(self, context):
             """stroke, rate, side load, tunables."""

@@ -14,6 +14,7 @@ from pydrake.systems.framework import (
 )
 from pydrake.systems.scalar_conversion import TemplateSystem
 
+from systems.checks import require
 from systems.runway import Runway
 from systems.tire_law import TireLaw, TireParameters
 
@@ -49,7 +50,7 @@ def Tire_(T):
         zero.
 
         States: none; with relaxation_length > 0 the lagged slips along and across.
-        Numeric parameters: `TireTunables`, 1 each.
+        Numeric parameters: `TireTunables`, factors on the law, 1 each; `set_factors`.
 
         Energy: wrench power on the wheel + d(energy)/dt + dissipated_power = 0. The
         dissipated power is never negative without a relaxation length; with it, it
@@ -102,6 +103,26 @@ def Tire_(T):
         @property
         def parameters(self) -> TireParameters:
             return self._parameters
+
+        def set_factors(
+            self, context, *, stiffness=1.0, damping=1.0, friction=1.0
+        ) -> None:
+            """Sets the factors on the law in a context of this system."""
+            factors = [stiffness, damping, friction]
+            for name, value in zip(TireTunables.get_fields(), factors):
+                require(self.get_name() or "tire", name, value, "", at_least=0.0)
+            parameter = context.get_mutable_numeric_parameter(self._tunables)
+            parameter.SetFromVector(factors)
+
+        def clearance(self, context):
+            """Height of the tyre's lowest point over the runway below it, m.
+
+            Only that point: on a profile its clearance is vertical, not the nearest
+            distance. The context is one of this system, `wheel` connected or fixed.
+            """
+            x, y, z, _, _, a_z = self._wheel.Eval(context).tolist()[:6]
+            reach = self._parameters.radius * (1.0 - a_z * a_z) ** 0.5
+            return z - reach - self._runway.height(x, y)
 
         def _factors(self, context):
             return context.get_numeric_parameter(self._tunables).CopyToVector().tolist()

@@ -5,9 +5,11 @@ import pytest
 from numpy.testing import assert_allclose
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import SpatialInertia
+from pydrake.systems.framework import DiagramBuilder
 
 from systems.attachment import RigidAttachment
 from systems.bushing_attachment import BushingAttachment
+from systems.flexible_airframe import FlexibleAirframe
 from systems.gear_forces import spatial_forces
 from systems.rotations import (
     exp,
@@ -15,6 +17,7 @@ from systems.rotations import (
     rotation_from_quaternion,
 )
 from tests.systems.small_gears import two_gears, violent_state
+from tests.systems.synthetic_body import LEFT_GEAR, RIGHT_GEAR, aircraft_body
 
 
 def _fixed(kind, gap=0.0, gap_rate=0.0, **options):
@@ -204,3 +207,34 @@ def test_bad_attachments_are_refused():
     other.Finalize()
     with pytest.raises(ValueError, match="beam must be a free body"):
         RigidAttachment(other, [body])
+
+
+def test_fittings_are_placed_on_moving_turned_nodes():
+    """In a diagram made by hand: no gap, and none opens, whatever the airframe does."""
+    builder = DiagramBuilder()
+    plant, fittings, *_ = two_gears()
+    builder.AddNamedSystem("plant", plant)
+    body = aircraft_body(3)
+    nodes = [LEFT_GEAR, RIGHT_GEAR]
+    airframe = builder.AddNamedSystem("airframe", FlexibleAirframe(body, nodes))
+    attachment = RigidAttachment(plant, list(fittings.values()))
+    builder.AddNamedSystem("attachment", attachment)
+    wires = [(plant, "state", "plant_state"), (airframe, "pose", "airframe_pose")]
+    for port in ("pose", "velocity", "free_acceleration", "compliance"):
+        wires.append((airframe, f"node_{port}", f"node_{port}"))
+    for source, output, port in wires:
+        builder.Connect(source.GetOutputPort(output), attachment.GetInputPort(port))
+    diagram = builder.Build()
+    context = diagram.CreateDefaultContext()
+    airframe.set_state(
+        airframe.GetMyMutableContextFromRoot(context),
+        p_WG=[1.0, 2.0, 9.0],
+        quaternion=quaternion_from_rotation(exp(np.array([[0.1, 0.2, -0.3]]))[0]),
+        v_WG=[-60.0, 1.0, -3.0],
+        w_B=[0.1, 0.2, 0.3],
+        modal_amplitudes=[3.0, -2.0, 1.0],
+        modal_rates=[10.0, 20.0, -10.0],
+    )
+    attachment.place_fittings(context)
+    gap = attachment.GetOutputPort("gap").Eval(attachment.GetMyContextFromRoot(context))
+    assert_allclose(gap, 0.0, atol=1e-12)

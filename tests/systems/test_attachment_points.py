@@ -153,3 +153,23 @@ def test_bad_holds_are_refused():
     stays = [{"hold": [d], "p_FN": 0.5 * np.array(d)} for d in np.eye(3)]
     with pytest.raises(ValueError, match="free to move"):
         RigidAttachment(plant, points({"hold": "ball"}, *stays))
+
+
+def test_origins_are_the_points_that_place_the_fittings():
+    points = _points()
+    origins = HoldPattern(points).origins
+    found = {i: fitting.name() for i, fitting in origins.items()}
+    assert found == {0: "left_fitting", 3: "right_fitting"}
+
+
+def test_a_fitting_that_no_point_holds_at_its_origin_cannot_be_placed():
+    _, fittings, *_ = two_gears()
+    left = next(iter(fittings.values()))
+    places = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0])
+    held = [
+        AttachmentPoint(fitting=left, hold=np.eye(3)[list(rows)], p_FN=p)
+        for rows, p in zip(([0, 1, 2], [0, 2], [0]), places)
+    ]
+    pattern = HoldPattern(held)
+    with pytest.raises(ValueError, match="left_fitting: held along directions alone"):
+        _ = pattern.origins

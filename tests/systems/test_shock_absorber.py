@@ -229,6 +229,25 @@ def test_numeric_parameters_change_the_force():
     assert parts[1] == pytest.approx(135e3)
 
 
+def test_tunables_are_set_by_name_and_checked():
+    system = ShockAbsorber(strut())
+    context = system.CreateDefaultContext()
+    before = context.get_numeric_parameter(0).CopyToVector()
+    system.set_tunables(context, precharge=50e3, seal_friction=0.1)
+    found = ShockAbsorberTunables(context.get_numeric_parameter(0).CopyToVector())
+    assert (found.precharge, found.seal_friction) == (50e3, 0.1)
+    changed = np.flatnonzero(before != found[:])
+    assert changed.tolist() == [0, 5]
+    for name, value, message in (
+        ("rebound_damping", -1.0, "rebound_damping is -1.0"),
+        ("gas_length", 0.4, "expected < 0.4 m, the length of the gas"),
+        ("exponent", 3.0, "exponent is 3.0, expected >= 1.0 and <= 2.0"),
+    ):
+        with pytest.raises(ValueError, match=re.escape(message)):
+            system.set_tunables(context, **{name: value})
+    assert found[:].tolist() == context.get_numeric_parameter(0).CopyToVector().tolist()
+
+
 def test_gas_length_tuned_below_the_stroke_is_refused():
     system = ShockAbsorber(strut())
 

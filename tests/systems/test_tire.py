@@ -361,6 +361,33 @@ def test_numeric_parameters_scale_the_law():
     )
 
 
+def test_factors_are_set_by_name_in_a_context():
+    wheel, system = rolling(share=0.0), Tire(tire())
+    context = system.CreateDefaultContext()
+    system.GetInputPort("wheel").FixValue(context, wheel)
+    system.set_factors(context, stiffness=2.0, friction=0.5)
+    factors = TireTunables(context.get_numeric_parameter(0).CopyToVector())
+    assert (factors.stiffness, factors.damping, factors.friction) == (2.0, 1.0, 0.5)
+    plain = evaluate(system, "wrench", wheel)
+    found = system.GetOutputPort("wrench").Eval(context)
+    assert found[5] == pytest.approx(2 * plain[5])
+    with pytest.raises(ValueError, match=r"friction is -1\.0, expected >= 0\.0"):
+        system.set_factors(context, friction=-1.0)
+
+
+@pytest.mark.parametrize("runway", [FLAT, WAVY])
+@pytest.mark.parametrize("camber", [0.0, 0.3])
+def test_clearance_is_that_of_the_lowest_point(runway, camber):
+    system = Tire(tire(), runway)
+    context = system.CreateDefaultContext()
+    axle = [0.0, math.cos(camber), math.sin(camber)]
+    wheel = [3.0, 1.0, 2.0, *axle, *np.zeros(6)]
+    system.GetInputPort("wheel").FixValue(context, wheel)
+    lowest = 2.0 - RADIUS * math.cos(camber)
+    expected = lowest - runway.height(3.0, 1.0)
+    assert system.clearance(context) == pytest.approx(expected, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     ("parameters", "runway", "state"),
     [(FULL, FLAT, None), (FULL, WAVY, None), (LAGGED, FLAT, [0.02, -0.01])],

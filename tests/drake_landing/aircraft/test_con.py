@@ -61,6 +61,9 @@ def test_monitoring_points_and_attachments_stand_where_they_should(con):
     assert at[monitoring["wing_tip_left"]][1] == pytest.approx(-16.963, abs=1e-3)
     assert at[monitoring["fin_tip"]][2] == pytest.approx(7.823, abs=1e-3)
     assert at[attachment["nose"]] == pytest.approx([5.07, 0.0, -1.6])
+    assert con.model.position_of(attachment["nose"]) == pytest.approx([5.07, 0, -1.6])
+    with pytest.raises(ValueError, match="DLR-D150-CON: no grid 999999999"):
+        con.model.position_of(999999999)
     assert at[attachment["main_left"]] == pytest.approx([17.6, -3.795, -1.05])
 
 
