@@ -27,7 +27,7 @@ from fem.loads import dynamic_excitation, initial_conditions, time_steps
 from fem.loads.element_loads import ElementLoads, side_by_side
 from fem.modal_damping import modal_ratios
 from fem.modal_transient import modal_transient, residual_vectors
-from fem.observation import Observer
+from fem.observation import Observer, Quantity
 from fem.recovery import ElementTable, element_tables, loaded_bar_tables
 from fem.results import PointLayout, ResultFile
 from fem.solution.modes import mode_table, modes_of, retained_modes
@@ -46,6 +46,12 @@ from fem.transient import TransientLoad, direct_transient
 
 Float64 = npt.NDArray[np.float64]
 
+_QUANTITIES: dict[str, Quantity] = {
+    "DISPLACEMENT": "displacement",
+    "VELOCITY": "velocity",
+    "ACCELERATION": "acceleration",
+}
+_MOTION = tuple(_QUANTITIES)
 # Quantities that nobody asked for are written up to this size.
 _UNASKED_BYTES = 300e6
 
@@ -244,15 +250,15 @@ def _observers(
     observers: list[Observer] = []
     for i, case in enumerate(cases):
         name = f"transient/{case.id}"
-        for quantity in ("displacement", "velocity", "acceleration"):
-            selection = _selection(model, case, quantity.upper())
+        for quantity in _MOTION:
+            selection = _selection(model, case, quantity)
             if selection != "NONE":
                 observers.append(
                     results.point_history(
-                        f"{name}/{quantity}",
+                        f"{name}/{quantity.lower()}",
                         model.points,
                         selection,
-                        quantity,
+                        _QUANTITIES[quantity],
                         reduced.expand,
                         i,
                     )
@@ -265,10 +271,16 @@ def _observers(
 
 
 def _selection(model: Structure, case: Subcase, quantity: str) -> Selection:
-    """What to write of a quantity; all of it where nobody asked and it is small."""
+    """What to write of a quantity; where nobody asked, of the grids whose motion
+    somebody asked for, or of all where that is small.
+    """
     asked = case.outputs.get(quantity)
     if asked is not None:
         return asked
+    others = [case.outputs[q] for q in _MOTION if q in case.outputs]
+    sets = [selection for selection in others if not isinstance(selection, str)]
+    if sets:
+        return sets[0]
     steps = time_steps(model.deck, case)
     times = sum(count // stride + 1 for count, _, stride in steps)
     return "ALL" if 8.0 * times * model.points.size < _UNASKED_BYTES else "NONE"
