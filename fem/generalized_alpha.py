@@ -85,7 +85,7 @@ class GeneralizedAlpha:
             factors = _factors(load, group, len(u))
             sigma, mu, nu = self.matrix_factors(system, group.step)
             a_old = a
-            with system.factorize(sigma, mu, nu) as factor:
+            with system.factorize(sigma, mu, nu, len(u)) as factor:
                 announce(factor)
                 sink = _Sink(group, emit, *u.shape)
                 for n in range(group.count):

@@ -115,7 +115,8 @@ class NastranScheme:
         for group in groups:
             start = self._start(system, group, groups, past, u0, v0)
             factors = _mean_factors(load, group, len(u0), start.uses_first_load)
-            with system.factorize(*self.matrix_factors(system, group.step)) as factor:
+            matrix = self.matrix_factors(system, group.step)
+            with system.factorize(*matrix, len(u0)) as factor:
                 announce(factor)
                 step = _Step(system, factor, group.step)
                 past = _run_group(step, group, start, factors, emit, tick)

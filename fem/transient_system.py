@@ -141,10 +141,15 @@ class TransientSystem:
             total = total + other * self.damping.other
         return sp.csr_matrix(total)
 
-    def factorize(self, k: float, m: float, other: float) -> Factorization:
-        """Factor of k K + m M + other B'."""
+    def factorize(
+        self, k: float, m: float, other: float, cases: int | None = None
+    ) -> Factorization:
+        """Factor of k K + m M + other B', for the steps of so many load cases."""
         return factorize(
-            self.combine(k, m, other), solver=self.solver, threads=self.threads
+            self.combine(k, m, other),
+            solver=self.solver,
+            threads=self.threads,
+            columns=cases,
         )
 
     def add_load(self, right: Float64, factors: Float64) -> None:

@@ -26,13 +26,15 @@ from fem.linear_solver.interface import (
 )
 
 _MATRIX_TYPE = {"spd": 2, "symmetric": -2}
-_FACTORISE, _SOLVE, _RELEASE = 12, 33, -1
+_ANALYSE, _FACTORISE, _SOLVE, _RELEASE = 11, 22, 33, -1
 
 # Positions in iparm (zero-based; the manual counts from one).
 _OWN_VALUES, _ORDERING, _REFINEMENT, _PIVOT_EXPONENT = 0, 1, 7, 9
 _SCALING, _MATCHING, _PERTURBED, _PEAK_KB, _SYMBOLIC_KB = 10, 12, 13, 14, 15
 _FACTOR_KB, _FACTOR_NNZ, _NEGATIVE, _BAD_ROW, _ZERO_BASED = 16, 17, 22, 29, 34
-_METIS = 2
+_MINIMUM_DEGREE, _METIS = 0, 2
+# Up to so many right-hand sides at a time a solve is bound by reading the factor.
+_FEW = 4
 
 _ERRORS = {
     -1: "inconsistent input",
@@ -95,6 +97,7 @@ class PardisoFactorization:
         matrix: (n, n) symmetric; only the upper triangle is read.
         kind: "spd" for a Cholesky, "symmetric" for an L D Lᵀ factorisation.
         threads: threads for factorisation and solves; None: `default_threads()`.
+        columns: right-hand sides of the many solves to come, see `factorize`.
 
     Raises:
         SingularMatrixError: zero pivot, or a negative one with kind "spd".
@@ -107,6 +110,7 @@ class PardisoFactorization:
         *,
         kind: Kind = "spd",
         threads: int | None = None,
+        columns: int | None = None,
     ) -> None:
         library = _library()
         if library is None:
@@ -120,15 +124,30 @@ class PardisoFactorization:
         self._handle = np.zeros(64, dtype=np.int64)
         self._type = _MATRIX_TYPE[kind]
         self._iparm = np.zeros(64, dtype=np.int32)
-        self._iparm[[_OWN_VALUES, _ORDERING, _ZERO_BASED]] = 1, _METIS, 1
+        self._iparm[[_OWN_VALUES, _ZERO_BASED]] = 1, 1
         self._iparm[_PIVOT_EXPONENT] = 8 if kind == "symmetric" else 13
         self._iparm[[_REFINEMENT, _SCALING, _MATCHING]] = 0
         self._iparm[[_FACTOR_NNZ]] = -1
         self._open = True
-        self._factorise(kind)
+        few = columns is not None and columns <= _FEW
+        self._factorise(kind, (_METIS, _MINIMUM_DEGREE) if few else (_METIS,))
 
-    def _factorise(self, kind: Kind) -> None:
+    def _analyse(self, orderings: tuple[int, ...]) -> None:
+        """Order the unknowns; of several orderings the one with the smaller factor."""
+        blank, attempts = self._iparm, []
+        for ordering in orderings:
+            self._handle, self._iparm = np.zeros(64, dtype=np.int64), blank.copy()
+            self._iparm[_ORDERING] = ordering
+            self._check(self._call(_ANALYSE, None, None, 1))
+            attempts.append((self._handle, self._iparm))
+        best, *others = sorted(attempts, key=lambda found: found[1][_FACTOR_NNZ])
+        for self._handle, self._iparm in others:
+            self._call(_RELEASE, None, None, 1)
+        self._handle, self._iparm = best
+
+    def _factorise(self, kind: Kind, orderings: tuple[int, ...]) -> None:
         try:
+            self._analyse(orderings)
             error = self._call(_FACTORISE, None, None, 1)
             if error == -4:
                 row = int(self._iparm[_BAD_ROW])

@@ -50,6 +50,25 @@ def test_solves_vectors_and_blocks(solver, kind):
         assert factor.memory_bytes > 8 * factor.nnz_factor
 
 
+def plate(n: int) -> sp.csr_matrix:
+    """Five-point stencil on a square of n by n points."""
+    line = sp.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(n, n))
+    return sp.csr_matrix(sp.kronsum(line, line))
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_pardiso_finds_a_smaller_factor_for_few_columns(solver):
+    matrix = plate(60)
+    right = np.random.default_rng(0).normal(size=3600)
+    with (
+        factorize(matrix, solver=solver) as many,
+        factorize(matrix, solver=solver, columns=1) as few,
+    ):
+        if solver == "pardiso":
+            assert few.nnz_factor < 0.9 * many.nnz_factor
+        np.testing.assert_allclose(few.solve(right), many.solve(right), rtol=1e-9)
+
+
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("seed", range(5))
 def test_inertia_is_the_number_of_negative_eigenvalues(solver, seed):
