@@ -51,13 +51,13 @@ def _largest(table: pd.DataFrame) -> pd.Series:
 
 def _at(row: pd.Series, factor: float, unit: str, spec: str) -> str:
     gear = str(row["gear"]).replace("_", " ")
-    return f"{factor * row['peak']:{spec}} {unit} ({gear}, {row['time']:.3f} s)"
+    return f"{factor * row['peak']:z{spec}} {unit} ({gear}, {row['time']:.3f} s)"
 
 
 def _acceleration(comparison: pd.DataFrame) -> str:
     row = comparison.iloc[int(np.argmax(comparison["peak_fe"].to_numpy()))]
     where = f"{str(row['point']).replace('_', ' ')}, {row['axis']}"
-    return f"{row['peak_fe']:.2f} m/s² ({where}; multibody {row['peak_mbs']:.2f} m/s²)"
+    return f"{row['peak_fe']:z.2f} m/s² ({where}; multibody {row['peak_mbs']:z.2f} m/s²)"
 
 
 def _difference(comparison: pd.DataFrame) -> str:

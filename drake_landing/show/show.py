@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from drake_landing.results import write_aside
+from drake_landing.results import write_csv
 from drake_landing.show.mesh import drawn_mesh
 from drake_landing.show.modes import ShownModes, shown_modes
 from drake_landing.show.pictures import draw_mesh, draw_modes
@@ -49,7 +49,7 @@ def show_model(
             files += [out / "modes.png", out / "modes.csv"]
             draw_modes(files[2], mesh, shown)
             table = shown.table(mesh)
-            write_aside(files[3], lambda part: table.to_csv(part, index=False))
+            write_csv(files[3], table)
     write_viewer(files[1], deck.stem, mesh, shown)
     tell("written: " + ", ".join(map(str, files)))
     return files
