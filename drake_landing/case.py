@@ -24,6 +24,7 @@ from pydantic import (
 
 from drake_landing.gear import AnyGear
 from drake_landing.places import Places
+from drake_landing.parts.settings import Parts
 from drake_landing.scenario import Scenario as Scenario
 from drake_landing.section import Section, number
 
@@ -276,6 +277,7 @@ class Case(Section):
     scenario: Scenario
     simulation: Simulation = Simulation()
     transient: Transient = Transient()
+    parts: Parts = Parts()
     _places: Places = PrivateAttr(default=Places())
 
     @property

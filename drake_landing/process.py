@@ -5,7 +5,6 @@
 `run_case` is the whole story; each chapter is a module of its own.
 """
 
-import time as clock
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,15 +19,26 @@ from drake_landing.case import Case
 from drake_landing.cases_io import case_text
 from drake_landing.comparison import RunLabel, comparison_table
 from drake_landing.extremes import element_envelopes, worst_elements
+from drake_landing.gear_checks import check_gears
 from drake_landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.history import POINT, LandingHistory, gear_peaks
 from drake_landing.inputs import Aircraft, prepare_aircraft
 from drake_landing.landing import build_landing, fast_mode_notices, fly
-from drake_landing.progress import Reporter, Silent
+from drake_landing.parts import tables
+from drake_landing.parts.inventory import inventory
+from drake_landing.parts.places import places_of
+from drake_landing.parts.slices import extreme_instants, static_slices
+from drake_landing.parts.watch import PartsFound, PartsWatch
+from drake_landing.practices import Practices, compare_practices, rigid
+from drake_landing.progress import Reporter
 from drake_landing.response import transient_response
 from drake_landing.results import write_csv, write_history_csv, write_results
+from drake_landing.stages import Spent, Stages, Timed
 from drake_landing.transient_deck import transient_deck, write_transient_deck
 from fem.envelope import Envelope
+from fem.structure import Structure
+from fem.transient import TransientRun
+from systems.modal_body import ModalBody
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,10 +53,12 @@ class ProcessResult:
         loads: attachment loads on the grid of the transient, as handed over.
         response: acceleration of the monitoring points, direct transient, B.
         envelopes: extremes of all element forces and stresses in the transient.
+        parts: what the parts see.
+        practices: the three practices side by side, where they were asked for.
         comparison: table of `comparison.csv`.
         gears: table of `gears.csv`.
         notices: what the user should know.
-        seconds: stage -> wall time.
+        stages: what each stage took.
     """
 
     case: Case
@@ -58,8 +70,15 @@ class ProcessResult:
     envelopes: tuple[Envelope, ...]
     comparison: pd.DataFrame
     gears: pd.DataFrame
+    parts: PartsFound
+    practices: Practices | None = None
     notices: tuple[str, ...] = ()
-    seconds: Mapping[str, float] = field(default_factory=dict)
+    stages: Stages = field(default_factory=Stages, repr=False)
+
+    @property
+    def seconds(self) -> Mapping[str, float]:
+        """Stage -> wall time, s."""
+        return self.stages.seconds
 
     @property
     def multibody_on_grid(self) -> dict[str, pd.DataFrame]:
@@ -67,57 +86,83 @@ class ProcessResult:
         return on_grid(self.history, self.loads.time)
 
 
-def run_case(case: Case, out: Path, progress: Reporter | None = None) -> ProcessResult:
+def run_case(
+    case: Case,
+    out: Path,
+    progress: Reporter | None = None,
+    *,
+    practices: bool = False,
+) -> ProcessResult:
     """Runs the process and writes all result files into the folder `out`.
+
+    Args:
+        case: validated.
+        out: folder.
+        progress: told the stages.
+        practices: also what rigid gear loads and static slices would have made of it.
 
     Raises:
         InputError: case, deck or gears are at fault; every problem is named.
         LandingError: the landing could not be integrated.
     """
     with case.places.located():
-        return _run_case(case, out, _Stages(progress or Silent()))
+        return _run_case(case, out, Stages(progress), practices)
 
 
-def _run_case(case: Case, out: Path, stages: "_Stages") -> ProcessResult:
+def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> ProcessResult:
     out.mkdir(parents=True, exist_ok=True)
 
-    stages.begin("reading the airframe")
+    stages.begin("reading the deck")
     aircraft = prepare_aircraft(case, out)
+    structure = aircraft.structure()
+    stages.begin("assembling the matrices")
+    _assemble(structure)
+    stages.begin("eigenmodes")
     airframe = load_airframe(
-        case.airframe, aircraft, stages.progress, case.scenario, Cache.of_user()
+        case.airframe,
+        aircraft,
+        stages.progress,
+        case.scenario,
+        Cache.of_user(),
+        structure,
     )
-    R_AB = rotation_AB(case.airframe.axes)
 
-    stages.begin(f"landing (elastic modes in the multibody model: {airframe.body.n})")
-    points = aircraft.monitoring
-    landing = build_landing(
-        airframe.body,
-        aircraft.gears,
-        points,
-        R_AB,
-        aircraft.scenario,
-        case.simulation.slow_modes_above,
+    stages.begin(
+        "landing", f"(elastic modes in the multibody model: {airframe.body.n})"
     )
-    history = fly(
-        landing, aircraft.scenario, case.simulation, points, R_AB, stages.progress
-    )
+    history = _fly(case, aircraft, airframe.body, stages.progress)
+    rigid_history = None
+    if practices:
+        stages.begin("landing with a rigid airframe")
+        rigid_history = _fly(case, aircraft, rigid(airframe.body), stages.progress)
 
     stages.begin("handing over the attachment loads")
-    loads = history.attachment_loads().resampled(
-        case.transient.step, case.transient_duration
-    )
+    loads = _on_transient_grid(case, history)
     write_landing_deck(out / "landing_sol109.bdf", case, aircraft, airframe, loads)
+    all_loads = [loads]
+    if rigid_history is not None:
+        all_loads.append(_on_transient_grid(case, rigid_history))
 
-    stages.begin("direct transient response of the full model")
-    envelopes = element_envelopes(airframe.structure)
-    response = transient_response(
-        airframe.structure,
-        loads,
-        points,
-        case.transient.scheme,
-        stages.progress,
-        envelopes,
-    )
+    stages.begin("maps of stresses and section loads")
+    watch = _watch(case, aircraft, airframe, loads)
+    envelopes = element_envelopes(structure)
+    stages.begin("direct transient", f"({len(all_loads)} load cases)")
+    response = _respond(case, aircraft, airframe, all_loads, watch, envelopes, stages)
+    parts = watch.found(all_loads)
+
+    compared = None
+    if practices:
+        stages.begin("static slices")
+        gears = {gear.name: gear.attachments.values() for gear in aircraft.gears}
+        slices = static_slices(
+            structure,
+            loads,
+            extreme_instants(loads, {name: list(n) for name, n in gears.items()}),
+            watch.stresses,
+            watch.cuts,
+            watch.grids,
+        )
+        compared = compare_practices(parts, slices, all_loads[1], aircraft.monitoring)
 
     stages.begin("comparing")
     label = RunLabel(
@@ -144,17 +189,102 @@ def _run_case(case: Case, out: Path, stages: "_Stages") -> ProcessResult:
         envelopes=tuple(envelopes),
         comparison=comparison,
         gears=gear_peaks(case.name, history),
+        parts=parts,
+        practices=compared,
         notices=(
             *aircraft.notices,
             *airframe.notices,
+            *check_gears(structure, aircraft, airframe.R_AB),
             *fast_mode_notices(airframe.body, case.simulation),
         ),
-        seconds=stages.seconds,
+        stages=stages,
     )
-    stages.begin("writing results and report")
-    write_all(result, out)
-    stages.end()
+    write_all(result, out, watch)
     return result
+
+
+def _assemble(structure: Structure) -> tuple[int, int]:
+    """Entries of K and M, which are kept."""
+    return structure.stiffness.nnz, structure.mass.nnz
+
+
+def _fly(
+    case: Case, aircraft: Aircraft, body: ModalBody, progress: Reporter
+) -> LandingHistory:
+    """The multibody run of a body."""
+    R_AB, points = rotation_AB(case.airframe.axes), aircraft.monitoring
+    landing = build_landing(
+        body,
+        aircraft.gears,
+        points,
+        R_AB,
+        aircraft.scenario,
+        case.simulation.slow_modes_above,
+    )
+    return fly(landing, aircraft.scenario, case.simulation, points, R_AB, progress)
+
+
+def _on_transient_grid(case: Case, history: LandingHistory) -> AttachmentLoads:
+    return history.attachment_loads().resampled(
+        case.transient.step, case.transient_duration
+    )
+
+
+def _watch(
+    case: Case, aircraft: Aircraft, airframe: AirframeModel, loads: AttachmentLoads
+) -> PartsWatch:
+    """What is looked at in the transient."""
+    structure = airframe.structure
+    return PartsWatch(
+        structure,
+        places_of(
+            structure,
+            case.parts,
+            rotation_AB(case.airframe.axes),
+            aircraft.monitoring,
+            case.airframe.model,
+        ),
+        inventory(structure, case.parts.allowables),
+        list(aircraft.monitoring.values()),
+        loads.node_id,
+        averaged=case.transient.scheme == "nastran",
+    )
+
+
+def _respond(
+    case: Case,
+    aircraft: Aircraft,
+    airframe: AirframeModel,
+    loads: list[AttachmentLoads],
+    watch: PartsWatch,
+    envelopes: list[Envelope],
+    stages: Stages,
+) -> dict[str, pd.DataFrame]:
+    """The transient of all load cases; its parts are booked as stages of their own."""
+    seen = [Timed(observer) for observer in watch.observers]
+    extremes = [Timed(envelope) for envelope in envelopes]
+
+    def book(run: TransientRun) -> None:
+        stages.split(
+            {
+                "direct transient: factor": Spent(
+                    wall=run.factor_seconds, processor=run.factor_processor
+                ),
+                "stresses, section loads": sum((o.spent for o in seen), Spent()),
+                "extremes of all results": sum((o.spent for o in extremes), Spent()),
+            }
+        )
+
+    return transient_response(
+        airframe.structure,
+        loads[0],
+        aircraft.monitoring,
+        case.transient.scheme,
+        stages.progress,
+        [*seen, *extremes],
+        loads[1:],
+        book,
+    )
 
 
 def on_grid(history: LandingHistory, time: np.ndarray) -> dict[str, pd.DataFrame]:
@@ -190,12 +320,31 @@ def write_landing_deck(
     write_transient_deck(path, lines)
 
 
-def write_all(result: ProcessResult, out: Path) -> None:
-    """results.h5, the CSV tables, report.html and landing.html."""
+def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
+    """results.h5, the CSV tables, pictures, report.html and landing.html."""
+    from drake_landing.parts.gallery import stress_pictures
     from drake_landing.replay import write_replay
     from drake_landing.report import write_report
 
-    history = result.history
+    stages = result.stages
+    stages.begin("writing the result files")
+    write_files(result, out)
+    write_replay(out / "landing.html", result)
+    stages.begin("pictures of the stress field")
+    structure, parts = result.airframe.structure, result.parts
+    pictures, unable = stress_pictures(
+        out, structure, watch.stresses, parts, result.case.parts, result.airframe.R_AB
+    )
+    stages.begin("writing the report")
+    write_report(out / "report.html", result, pictures, unable)
+    stages.end()
+    write_csv(out / "stages.csv", stages.table())
+
+
+def write_files(result: ProcessResult, out: Path) -> None:
+    """results.h5 and the CSV tables."""
+    history, parts = result.history, result.parts
+    ultimate = result.case.parts.ultimate_factor
     write_results(
         out / "results.h5",
         case=case_text(result.case),
@@ -206,33 +355,22 @@ def write_all(result: ProcessResult, out: Path) -> None:
         envelopes=result.envelopes,
         comparison=result.comparison,
         gears=result.gears,
+        parts=parts,
     )
     write_csv(out / "comparison.csv", result.comparison)
     write_csv(out / "gears.csv", result.gears)
     write_csv(out / "worst_elements.csv", worst_elements(result.envelopes, 10))
+    stress = parts.landing.stress
+    write_csv(out / "worst_stresses.csv", tables.worst_elements(stress, ultimate))
+    write_csv(out / "section_loads.csv", tables.section_envelopes(parts))
+    write_csv(out / "section_roots.csv", tables.root_histories(parts), index=True)
+    write_history_csv(
+        out / "accelerations_equipment.csv", tables.equipment_histories(parts)
+    )
+    if result.practices is not None:
+        write_csv(out / "practices.csv", result.practices.table)
     write_history_csv(out / "attachment_loads.csv", history.attachment)
     write_history_csv(out / "tyres.csv", history.tyre)
     write_history_csv(out / "struts.csv", history.strut)
     write_history_csv(out / "accelerations_multibody.csv", result.multibody_on_grid)
     write_history_csv(out / "accelerations_transient.csv", result.response)
-    write_replay(out / "landing.html", result)
-    write_report(out / "report.html", result)
-
-
-class _Stages:
-    """Tells the stages and measures them."""
-
-    def __init__(self, progress: Reporter) -> None:
-        self.progress = progress
-        self.seconds: dict[str, float] = {}
-        self._name, self._start = "", 0.0
-
-    def begin(self, name: str) -> None:
-        self.end()
-        self._name, self._start = name, clock.perf_counter()
-        self.progress.stage(name)
-
-    def end(self) -> None:
-        if self._name:
-            self.seconds[self._name] = clock.perf_counter() - self._start
-        self._name = ""

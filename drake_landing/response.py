@@ -4,7 +4,7 @@ The airframe flies freely and starts at rest: the response is the increment to s
 flight, as the loads are.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -18,7 +18,7 @@ from fem.linear_solver import SingularMatrixError
 from fem.nastran_scheme import NastranScheme
 from fem.observation import Observation, Observer
 from fem.structure import Structure
-from fem.transient import direct_transient
+from fem.transient import TransientRun, direct_transient
 from fem.transient_system import TransientLoad, sampled_load
 
 Float64 = npt.NDArray[np.float64]
@@ -26,11 +26,26 @@ Float64 = npt.NDArray[np.float64]
 SCHEMES = {"nastran": NastranScheme, "generalised-alpha": GeneralizedAlpha}
 
 
-def transient_load(structure: Structure, loads: AttachmentLoads) -> TransientLoad:
-    """The loads as patterns on the free set times functions of time."""
-    time, load = loads.held()
-    pattern = structure.operator(loads.node_id, frame="basic").T
-    return sampled_load(pattern, time, load.reshape(len(time), -1).T)
+def transient_load(structure: Structure, *cases: AttachmentLoads) -> TransientLoad:
+    """The loads as patterns on the free set times functions of time.
+
+    Args:
+        structure: the full model.
+        cases: load cases on the same nodes and instants.
+
+    Raises:
+        ValueError: nodes or instants differ.
+    """
+    first = cases[0]
+    for other in cases[1:]:
+        if not np.array_equal(first.node_id, other.node_id) or not np.array_equal(
+            first.time, other.time
+        ):
+            raise ValueError("load cases differ in their nodes or instants")
+    time, _ = first.held()
+    factors = [loads.held()[1].reshape(len(time), -1).T for loads in cases]
+    pattern = structure.operator(first.node_id, frame="basic").T
+    return sampled_load(pattern, time, np.stack(factors))
 
 
 def transient_response(
@@ -40,6 +55,8 @@ def transient_response(
     scheme: str = "nastran",
     progress: Reporter | None = None,
     observers: Sequence[Observer] = (),
+    further: Sequence[AttachmentLoads] = (),
+    done: Callable[[TransientRun], None] | None = None,
 ) -> dict[str, pd.DataFrame]:
     """Accelerations of monitoring points, basic axes.
 
@@ -50,9 +67,11 @@ def transient_response(
         scheme: a key of `SCHEMES`.
         progress: told the share of steps.
         observers: further takers of the response: envelopes, stresses.
+        further: load cases beside the first, integrated together with it.
+        done: hears how the transient went.
 
     Returns:
-        Point -> table with columns x, y, z, m/s², over time.
+        Point -> table with columns x, y, z, m/s², over time, under `loads`.
 
     Raises:
         InputError: a motion without mass and stiffness, with the grids that move.
@@ -64,20 +83,22 @@ def transient_response(
     )
 
     def integrate() -> None:
-        direct_transient(
+        run = direct_transient(
             structure.stiffness,
             structure.mass,
             structure.damping,
             steps=[(len(loads.time) - 1, loads.step)],
-            load=transient_load(structure, loads),
+            load=transient_load(structure, loads, *further),
             observers=[watched, *observers],
             scheme=SCHEMES[scheme](),
-            progress=lambda done, wanted: tell.share(done / wanted, f"step {done}"),
+            progress=lambda step, wanted: tell.share(step / wanted, f"step {step}"),
         )
+        if done is not None:
+            done(run)
 
     structure.guarded(integrate, dynamic=True, error=SingularMatrixError)
     index = pd.Index(loads.time, name="time")
-    values = watched.history.reshape(len(index), len(points), 3)
+    values = watched.values[:, 0].reshape(len(index), len(points), 3)
     return {
         point: pd.DataFrame(values[:, i], columns=list(POINT), index=index)
         for i, point in enumerate(points)

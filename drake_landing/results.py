@@ -7,6 +7,9 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
                         kinds: attachment, tyre, strut, monitoring, motion, energy
     /multibody/modal_amplitudes (t, n); /multibody/bodies/<name> (t, 7) pose in W
     /fe/monitoring/<point>   as above, direct transient
+    /parts/sections/<beam>   station, point (A, m), value (t, n, 6): section loads, A
+    /parts/acceleration/<grid>   (t, 3), B; /parts/time
+    /parts/stress       id, equivalent, time, largest, smallest of each element
     /airframe           frequency_hz, mass, cg, node_id
     /comparison, /gears   one dataset per column of the CSV tables
 """
@@ -15,6 +18,7 @@ import importlib.metadata
 import platform
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import h5py
 import numpy as np
@@ -22,9 +26,13 @@ import pandas as pd
 
 from drake_landing.handover import AttachmentLoads
 from drake_landing.history import UNITS, LandingHistory
+from drake_landing.parts.cuts import COMPONENTS
 from fem.aside import written_aside
 from fem.envelope import Envelope
 from systems.modal_body import ModalBody
+
+if TYPE_CHECKING:
+    from drake_landing.parts.watch import PartsFound
 
 # What a run writes.
 FILES = (
@@ -33,7 +41,13 @@ FILES = (
     "results.h5",
     "landing_sol109.bdf",
     "tables (CSV)",
+    "pictures",
 )
+_UNITS = {
+    **UNITS,
+    **dict.fromkeys(("qw", "qx", "qy", "qz"), "1"),
+    **dict.fromkeys(("px", "py", "pz"), "m"),
+}
 _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
 
 
@@ -53,8 +67,11 @@ def write_aside(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:
-    """Nine significant digits; NaN is an empty cell."""
-    write_aside(path, lambda to: table.to_csv(to, index=index, float_format="%.9g"))
+    """Nine significant digits, zero without a sign; NaN is an empty cell."""
+    plain = table.copy()
+    floats = plain.select_dtypes("floating").columns
+    plain[floats] = plain[floats] + 0.0  # -0.0 + 0.0 is 0.0
+    write_aside(path, lambda to: plain.to_csv(to, index=index, float_format="%.9g"))
 
 
 def write_history_csv(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
@@ -76,6 +93,7 @@ def write_results(
     envelopes: Sequence[Envelope],
     comparison: pd.DataFrame,
     gears: pd.DataFrame,
+    parts: "PartsFound",
 ) -> None:
     """Writes `results.h5`.
 
@@ -88,6 +106,7 @@ def write_results(
         response: acceleration of the monitoring points in the direct transient.
         envelopes: extremes of the element results in the direct transient.
         comparison, gears: the tables of the same names.
+        parts: what the parts see.
     """
 
     def write(to: Path) -> None:
@@ -101,6 +120,7 @@ def write_results(
                 _write_series(file, f"fe/monitoring/{point}", table)
             for envelope in envelopes:
                 envelope.write(file)
+            _write_parts(file.create_group("parts"), parts)
             _write_airframe(file.create_group("airframe"), body)
             _write_table(file.create_group("comparison"), comparison)
             _write_table(file.create_group("gears"), gears)
@@ -129,19 +149,38 @@ def _write_history(group: h5py.Group, history: LandingHistory) -> None:
         for name, table in tables.items():
             _write_series(group, f"{kind}/{name}", table)
     _write_series(group, "motion", history.motion)
-    _write_series(group, "energy", history.energy)
+    _write_series(group, "energy", history.energy, unit="J")
     group["modal_amplitudes"] = history.amplitudes
     for name, poses in history.bodies.items():
         group[f"bodies/{name}"] = poses
         group[f"bodies/{name}"].attrs["columns"] = list(history.motion.columns)
 
 
-def _write_series(group: h5py.Group, name: str, table: pd.DataFrame) -> None:
+def _write_series(
+    group: h5py.Group, name: str, table: pd.DataFrame, unit: str = ""
+) -> None:
+    """Time and values; `unit` is that of columns without one of their own."""
     at = group.create_group(name)
     at["time"] = table.index.to_numpy()
     at["value"] = table.to_numpy()
     at["value"].attrs["columns"] = [str(c) for c in table.columns]
-    at["value"].attrs["units"] = [UNITS.get(str(c), "") for c in table.columns]
+    at["value"].attrs["units"] = [_UNITS.get(str(c), unit) for c in table.columns]
+
+
+def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
+    group["time"] = parts.time
+    for name, cuts in parts.cuts.items():
+        at = group.create_group(f"sections/{name}")
+        at["station"], at["point"] = cuts.beam.stations, cuts.point
+        at["value"] = parts.landing.sections[name]
+        at["value"].attrs["columns"] = list(COMPONENTS)
+        at.attrs["outward"] = cuts.beam.outward
+    for grid, values in parts.landing.acceleration.items():
+        group[f"acceleration/{grid}"] = values
+    stress = group.create_group("stress")
+    table = parts.landing.stress
+    for column in ("id", "equivalent", "time", "largest", "smallest"):
+        stress[column] = table[column].to_numpy()
 
 
 def _write_airframe(group: h5py.Group, body: ModalBody) -> None:

@@ -7,7 +7,7 @@ an observer asks for them.
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from time import perf_counter
+from time import perf_counter, process_time
 
 import numpy as np
 import numpy.typing as npt
@@ -44,6 +44,7 @@ class TransientRun:
         cases: load cases integrated together.
         nnz_factor: entries of the (last) factor.
         factor_seconds, step_seconds: wall time of all factorisations, of all steps.
+        factor_processor: processor time of all factorisations, s.
     """
 
     time: Float64
@@ -52,6 +53,7 @@ class TransientRun:
     nnz_factor: int
     factor_seconds: float
     step_seconds: float
+    factor_processor: float = 0.0
 
 
 def direct_transient(
@@ -127,6 +129,7 @@ def direct_transient(
         nnz_factor=run.nnz_factor,
         factor_seconds=clock.factor_seconds,
         step_seconds=clock.step_seconds,
+        factor_processor=clock.factor_processor,
     )
 
 
@@ -156,8 +159,10 @@ class _Clock:
     def __init__(self) -> None:
         self.factor_seconds = 0.0
         self.step_seconds = 0.0
+        self.factor_processor = 0.0
         self._factor_start: float | None = perf_counter()
         self._step_start: float | None = None
+        self._processor_start = process_time()
 
     def end_factor(self) -> None:
         now = perf_counter()
@@ -166,13 +171,14 @@ class _Clock:
             self._factor_start, self._step_start = self._step_start, None
         if self._factor_start is not None:
             self.factor_seconds += now - self._factor_start
+            self.factor_processor += process_time() - self._processor_start
         self._factor_start, self._step_start = None, now
 
     def end_steps(self) -> None:
         now = perf_counter()
         if self._step_start is not None:
             self.step_seconds += now - self._step_start
-        self._step_start = now
+        self._step_start, self._processor_start = now, process_time()
 
 
 @dataclass

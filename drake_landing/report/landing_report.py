@@ -1,7 +1,7 @@
 """The report of one landing: which pictures and tables, in which order."""
 
 import platform
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from drake_landing.report.page import (
     table_block,
     write_page,
 )
+from drake_landing.report.parts_sections import Picture, parts_sections
 from drake_landing.results import versions
 from drake_landing.summary import key_figures, mode_count, story
 
@@ -55,8 +56,20 @@ _WORST = {
 }
 
 
-def write_report(path: Path, result: "ProcessResult") -> None:
-    """Writes `report.html`."""
+def write_report(
+    path: Path,
+    result: "ProcessResult",
+    pictures: Sequence[Picture] = (),
+    unable: str = "",
+) -> None:
+    """Writes `report.html`.
+
+    Args:
+        path: of the file.
+        result: of the run.
+        pictures: of the stress field, and what they show.
+        unable: a sentence on why there are none.
+    """
     case = result.case
     write_page(
         path,
@@ -66,15 +79,18 @@ def write_report(path: Path, result: "ProcessResult") -> None:
             story=story(result),
             key_figures=key_figures(result),
             notices=result.notices,
-            sections=list(_sections(result)),
+            sections=list(_sections(result, pictures, unable)),
             footer=", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
             + f", Python {platform.python_version()}. SI units.",
         ),
     )
 
 
-def _sections(result: "ProcessResult") -> Iterator[Section]:
+def _sections(
+    result: "ProcessResult", pictures: Sequence[Picture], unable: str
+) -> Iterator[Section]:
     yield Section(id="case", title="Case", blocks=[pairs_block(_case_pairs(result))])
+    yield from parts_sections(result, pictures, unable)
     yield Section(
         id="gears",
         title="Landing gears",
@@ -94,7 +110,7 @@ def _sections(result: "ProcessResult") -> Iterator[Section]:
         blocks=[Block(svg=figures.attachment_loads(result.history))],
     )
     yield _accelerations(result)
-    yield _parts(result)
+    yield _extremes(result)
     yield _spectra(result)
     yield Section(
         id="energy",
@@ -107,11 +123,11 @@ def _sections(result: "ProcessResult") -> Iterator[Section]:
     yield _tables(result)
 
 
-def _parts(result: "ProcessResult") -> Section:
+def _extremes(result: "ProcessResult") -> Section:
     worst = worst_elements(result.envelopes, 1)
     return Section(
-        id="parts",
-        title="What the parts see",
+        id="extremes",
+        title="Extremes of all results",
         text="Extremes of element forces and stresses in the direct transient, "
         "increments to steady flight: for each type and quantity the element that sees "
         "most. All elements: results.h5, group envelope; the worst ten: "
@@ -193,12 +209,21 @@ def _tables(result: "ProcessResult") -> Section:
         blocks=[
             table_block(peaks, heads, formats, "Peaks per gear (largest magnitude)"),
             table_block(
-                pd.DataFrame(
-                    {"stage": result.seconds.keys(), "s": result.seconds.values()}
-                ),
-                {"stage": "stage", "s": "seconds"},
-                {"s": ".2f"},
-                "Time taken",
+                result.stages.table(),
+                {
+                    "stage": "stage",
+                    "wall": "seconds",
+                    "share": "share",
+                    "processor": "processor seconds",
+                    "memory_gb": "peak memory so far GB",
+                },
+                {
+                    "wall": ".1f",
+                    "share": ".0%",
+                    "processor": ".1f",
+                    "memory_gb": ".2f",
+                },
+                "Time and memory taken until this page was written",
             ),
             Block(
                 caption="The case file, defaults written out",

@@ -1,5 +1,6 @@
 """Puts text, pictures and tables of a run together on one page without outer files."""
 
+import base64
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -23,10 +24,23 @@ class Cell:
 
 @dataclass(frozen=True, kw_only=True)
 class Block:
-    """A picture, a table, or text to be unfolded."""
+    """A picture, a table, or text to be unfolded.
+
+    Attributes:
+        caption: of the picture or table, summary of the text.
+        svg: picture as SVG text.
+        png: picture as base64 text.
+        alt: what the PNG shows, in words.
+        heads, rows: table.
+        fold: the table is to be unfolded.
+        pre: preformatted text.
+    """
 
     caption: str = ""
     svg: str = ""
+    png: str = ""
+    alt: str = ""
+    fold: bool = False
     heads: Sequence[str] = ()
     rows: Sequence[Sequence[Cell]] = ()
     pre: str = ""
@@ -76,6 +90,8 @@ def table_block(
     heads: dict[str, str],
     formats: dict[str, str],
     caption: str = "",
+    *,
+    fold: bool = False,
 ) -> Block:
     """A table of chosen columns.
 
@@ -84,12 +100,19 @@ def table_block(
         heads: column -> heading, in the order of the page.
         formats: column -> format specification of its numbers.
         caption: above the table.
+        fold: to be unfolded.
     """
     rows = [
         [_cell(row[column], formats.get(column, "")) for column in heads]
         for row in table.to_dict("records")
     ]
-    return Block(heads=list(heads.values()), rows=rows, caption=caption)
+    return Block(heads=list(heads.values()), rows=rows, caption=caption, fold=fold)
+
+
+def png_block(path: Path, caption: str) -> Block:
+    """A PNG picture set into the page."""
+    data = base64.b64encode(path.read_bytes()).decode("ascii")
+    return Block(png=data, alt=caption, caption=caption)
 
 
 def pairs_block(pairs: Iterable[tuple[str, str]], caption: str = "") -> Block:
@@ -102,5 +125,5 @@ def _cell(value: Any, spec: str) -> Cell:
     if isinstance(value, float) and math.isnan(value):
         return Cell(text="–", number=True)
     if isinstance(value, int | float):
-        return Cell(text=format(value, spec), number=True)
+        return Cell(text=format(value, f"z{spec}" if spec else ""), number=True)
     return Cell(text=str(value))

@@ -55,13 +55,19 @@ _STYLE = {
 
 @contextmanager
 def panels(
-    rows: int, columns: int, *, height: float = 2.1
+    rows: int, columns: int, *, height: float = 2.1, shared: bool = True
 ) -> Iterator[tuple[Figure, list[list[Axes]]]]:
-    """A figure with a grid of panels, in the style of the report."""
+    """A figure with a grid of panels, in the style of the report.
+
+    Args:
+        rows, columns: of the grid.
+        height: of a row, inch.
+        shared: all panels have one horizontal axis.
+    """
     with mpl.rc_context(_STYLE):
         figure = Figure(figsize=(WIDTH, height * rows + 0.35), layout="constrained")
         FigureCanvasSVG(figure)
-        grid = figure.subplots(rows, columns, squeeze=False, sharex=True)
+        grid = figure.subplots(rows, columns, squeeze=False, sharex=shared)
         yield figure, grid.tolist()
 
 

@@ -1,0 +1,76 @@
+"""Which pictures of the stress field a report shows, and what it says below them."""
+
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from drake_landing.parts.pictures import can_draw, draw_field, stress_field
+from drake_landing.parts.settings import Parts
+from drake_landing.parts.stress import Stresses
+from drake_landing.parts.tables import component_table
+from drake_landing.parts.watch import PartsFound
+from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+
+_CLOSE_UPS = 2
+_UNABLE = (
+    "No pictures of the stress field: VTK cannot draw off-screen on this machine (no "
+    "graphics library, or switched off)."
+)
+
+
+def stress_pictures(
+    out: Path,
+    structure: Structure,
+    stresses: Stresses,
+    found: PartsFound,
+    parts: Parts,
+    R_AB: Float64,
+) -> tuple[list[tuple[Path, str]], str]:
+    """The whole airframe when its worst element sees its worst, and close-ups.
+
+    Returns:
+        PNG files in `out/pictures` with captions, and a sentence where there are none.
+    """
+    components = component_table(found.landing.stress, parts.ultimate_factor)
+    components = components[components.component.isin(list(found.worst))]
+    if not len(components):
+        return [], ""
+    if not can_draw():
+        return [], _UNABLE
+    up, aft = R_AB[2], R_AB[0]
+    pictures = []
+    worst = components.iloc[0]
+    snapshot = found.worst[worst.component]
+    field = stress_field(structure, stresses, snapshot)
+    path = out / "pictures" / "stress_all.png"
+    top = draw_field(path, field, close=False, up=up, aft=aft)[1]
+    pictures.append(
+        (
+            path,
+            f"Equivalent stress at {snapshot.time:.3f} s, when the element with the "
+            f"least margin sees its worst ({worst.component}, element {worst.id}). "
+            f"Displacements times {field.factor:g}, without the motion as a rigid "
+            f"body; colours end at {top / 1e6:.0f} MPa, above which are 0.5 % of the "
+            "elements.",
+        )
+    )
+    by_component = found.landing.stress.groupby("component").id
+    for row in components.head(_CLOSE_UPS).itertuples():
+        name = str(row.component)
+        snapshot = found.worst[name]
+        own = frozenset(by_component.get_group(name).tolist())
+        field = stress_field(structure, stresses, snapshot, own)
+        path = out / "pictures" / f"stress_{name.replace(' ', '_')}.png"
+        draw_field(path, field, close=True, up=up, aft=aft)
+        pictures.append(
+            (
+                path,
+                f"{name.capitalize()} alone, at {snapshot.time:.3f} s, round its worst "
+                f"element {snapshot.element}: {row.equivalent / 1e6:.0f} MPa. "
+                f"Displacements times {field.factor:g}.",
+            )
+        )
+    return pictures, ""

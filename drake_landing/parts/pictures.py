@@ -1,0 +1,256 @@
+"""Pictures of the stress field at the worst instant: the whole airframe, one component.
+
+Drawn off-screen by VTK; where that is not possible, there is a sentence instead.
+"""
+
+import os
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from drake_landing.parts.stress import Stresses
+from drake_landing.parts.stress_watch import Snapshot
+from fem.structure import Structure
+
+if TYPE_CHECKING:
+    import pyvista
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+SIZE = (1500, 900)  # pixels
+_DEFORMATION = 0.05  # of the airframe's size: largest displacement in a picture
+_CLOSE = 0.09  # of the airframe's size: half height of a close-up
+_TOP = 0.995  # share of elements below the end of the colour scale
+_FACES = {"CQUAD4": ("g1", "g2", "g3", "g4"), "CTRIA3": ("g1", "g2", "g3"),
+          "CSHEAR": ("g1", "g2", "g3", "g4")}  # fmt: skip
+_LINES = {"CBAR": ("ga", "gb"), "CBEAM": ("ga", "gb"), "CROD": ("g1", "g2")}
+_TRY = (
+    "import pyvista as v; p = v.Plotter(off_screen=True); p.screenshot(None); p.close()"
+)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Field:
+    """What is drawn.
+
+    Attributes:
+        p: (g, 3) grids, deformed, B, m.
+        faces, lines: elements -> rows of grids; padded as VTK wants them.
+        face_stress, line_stress: Pa per element.
+        factor: of the displacements.
+        worst: (3,) middle of the worst element, deformed.
+    """
+
+    p: Float64
+    faces: Int64
+    lines: Int64
+    face_stress: Float64
+    line_stress: Float64
+    factor: float
+    worst: Float64
+
+
+@cache
+def can_draw() -> bool:
+    """Whether VTK can draw here; a crash of a driver stays in a process of its own."""
+    if os.environ.get("DRAKE_LANDING_PICTURES", "").lower() == "off":
+        return False
+    done = subprocess.run(
+        [sys.executable, "-c", _TRY], capture_output=True, timeout=120, check=False
+    )
+    return done.returncode == 0
+
+
+def stress_field(
+    structure: Structure,
+    stresses: Stresses,
+    snapshot: Snapshot,
+    chosen: frozenset[int] | None = None,
+) -> Field:
+    """The deformed elements with their equivalent stress at an instant.
+
+    Args:
+        structure: the full model.
+        stresses: of all elements.
+        snapshot: displacements and the worst element.
+        chosen: element ids; None: all.
+    """
+    equivalent = stresses.of(snapshot.displacement[:, None])[0, :, 0]
+    stress = pd.Series(equivalent, index=stresses.id)
+    points = structure.points
+    moved = structure.operator(points.grid_id, (1, 2, 3), frame="basic")
+    u = (moved @ snapshot.displacement).reshape(-1, 3)
+    u = u - _rigid_part(structure, snapshot.displacement, points.xyz)
+    size = float(np.ptp(points.xyz, axis=0).max())
+    largest = float(np.linalg.norm(u, axis=1).max())
+    factor = _round(_DEFORMATION * size / largest) if largest > 0.0 else 1.0
+    p = points.xyz + factor * u
+    faces, face_id = _cells(structure, _FACES, chosen, stress.index)
+    lines, line_id = _cells(structure, _LINES, chosen, stress.index)
+    own = [row for row, e in zip((*faces, *lines), (*face_id, *line_id))
+           if e == snapshot.element]  # fmt: skip
+    worst = p[own[0]].mean(axis=0) if own else p.mean(axis=0)
+    return Field(
+        p=p,
+        faces=_padded(faces),
+        lines=_padded(lines),
+        face_stress=stress.loc[face_id].to_numpy(float),
+        line_stress=stress.loc[line_id].to_numpy(float),
+        factor=factor,
+        worst=worst,
+    )
+
+
+def draw_field(
+    path: Path, field: Field, *, close: bool, up: Float64, aft: Float64
+) -> Float64:
+    """Draws a field; a close-up looks at its worst element.
+
+    Args:
+        path: PNG file.
+        field: what to draw.
+        close: close-up, instead of all.
+        up, aft: (3,) directions in B.
+
+    Returns:
+        (2,) ends of the colour scale, Pa.
+    """
+    import pyvista
+    from vtkmodules.vtkCommonCore import vtkLogger
+
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
+    plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
+    plotter.set_background("white")
+    every = np.concatenate([field.face_stress, field.line_stress])
+    top = float(np.quantile(every, _TOP)) if not close else float(every.max())
+    scale = (0.0, max(top, 1.0))
+    bar = {
+        "title": "equivalent stress, MPa",
+        "vertical": False,
+        "position_x": 0.30,
+        "position_y": 0.02,
+        "width": 0.40,
+        "height": 0.07,
+        "title_font_size": 22,
+        "label_font_size": 20,
+        "color": "black",
+        "fmt": "%.0f" if scale[1] > 2e7 else "%.1f",
+    }
+    for data, stress, width in (
+        (_poly(field.p, faces=field.faces), field.face_stress, 1.0),
+        (_poly(field.p, lines=field.lines), field.line_stress, 3.0 if close else 1.2),
+    ):
+        if not len(stress):
+            continue
+        data.cell_data["stress"] = stress / 1e6
+        plotter.add_mesh(
+            data,
+            scalars="stress",
+            cmap="turbo",
+            clim=(0.0, scale[1] / 1e6),
+            scalar_bar_args=bar,
+            show_edges=close and width == 1.0,
+            edge_opacity=0.3,
+            line_width=width,
+            ambient=0.35,
+            diffuse=0.7,
+        )
+    _look(plotter, field, close=close, up=up, aft=aft)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    plotter.screenshot(str(path))
+    plotter.close()
+    return np.array(scale)
+
+
+def _look(
+    plotter: "pyvista.Plotter", field: Field, *, close: bool, up: Float64, aft: Float64
+) -> None:
+    """From ahead, aside and above; a close-up from the side that its element is on."""
+    starboard = np.cross(up, aft)
+    side = 1.0 if field.worst @ starboard >= 0.0 else -1.0
+    high = 0.55
+    used = field.p
+    if close:
+        middle = 0.5 * (used.min(axis=0) + used.max(axis=0))
+        below = (field.worst - middle) @ up < 0.0
+        high = -0.45 if below else 0.6
+    toward = -0.8 * aft + side * starboard + high * up
+    toward /= np.linalg.norm(toward)
+    right = np.cross(up, toward)
+    right /= np.linalg.norm(right)
+    upward = np.cross(toward, right)
+    seen = used @ np.column_stack([right, upward])
+    low, wide = seen.min(axis=0), np.ptp(seen, axis=0)
+    middle = low + 0.5 * wide
+    size = float(np.ptp(used, axis=0).max())
+    focus = middle[0] * right + middle[1] * upward + toward * (used @ toward).mean()
+    half = 0.56 * max(wide[1], wide[0] * SIZE[1] / SIZE[0])
+    if close:
+        focus, half = field.worst, _CLOSE * size
+    plotter.enable_parallel_projection()
+    plotter.camera.up = tuple(up)
+    plotter.camera.focal_point = tuple(focus)
+    plotter.camera.position = tuple(focus + 3.0 * size * toward)
+    plotter.camera.parallel_scale = half
+    plotter.reset_camera_clipping_range()
+
+
+def _rigid_part(structure: Structure, u_f: Float64, p: Float64) -> Float64:
+    """(g, 3) motion as a rigid body, in the mean of the masses."""
+    rigid = structure.rigid_body
+    heavy = structure.mass @ rigid
+    share = np.linalg.solve(rigid.T @ heavy, heavy.T @ u_f)
+    arm = p - structure.weight.center
+    return share[:3] + np.cross(share[3:], arm)
+
+
+def _cells(
+    structure: Structure,
+    cards: Mapping[str, tuple[str, ...]],
+    chosen: frozenset[int] | None,
+    known: pd.Index,
+) -> tuple[list[Int64], Int64]:
+    """Rows of the grids of elements, and element ids."""
+    grid_id, rows, ids = structure.points.grid_id, [], []
+    for card, columns in cards.items():
+        table = structure.deck.cards.get(card)
+        if table is None or not len(table):
+            continue
+        table = table[table.eid.isin(known)]
+        if chosen is not None:
+            table = table[table.eid.isin(chosen)]
+        if not len(table):
+            continue
+        nodes = table[list(columns)].to_numpy(np.int64)
+        rows += list(np.searchsorted(grid_id, nodes))
+        ids.append(table.eid.to_numpy(np.int64))
+    return rows, np.concatenate(ids) if ids else np.zeros(0, np.int64)
+
+
+def _padded(cells: list[Int64]) -> Int64:
+    if not cells:
+        return np.zeros(0, np.int64)
+    return np.concatenate([np.concatenate([[len(c)], c]) for c in cells])
+
+
+def _poly(p: Float64, **cells: Int64) -> "pyvista.PolyData":
+    import pyvista
+
+    if not any(len(c) for c in cells.values()):
+        return pyvista.PolyData()
+    return pyvista.PolyData(p, **cells)
+
+
+def _round(factor: float) -> float:
+    """To one digit, so that it can be said."""
+    power = 10.0 ** np.floor(np.log10(factor))
+    return float(np.floor(factor / power) * power)

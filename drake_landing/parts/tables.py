@@ -1,0 +1,102 @@
+"""Tables of what the parts see: by component, worst elements, section loads, panels."""
+
+import numpy as np
+import pandas as pd
+
+from drake_landing.parts.cuts import NAMED, envelope_table
+from drake_landing.parts.watch import PartsFound
+
+WORST = ["component", "rank", "id", "card", "material", "equivalent", "time",
+         "largest", "smallest", "x", "y", "z", "allowed", "margin"]  # fmt: skip
+
+
+def with_margin(stress: pd.DataFrame, ultimate: float) -> pd.DataFrame:
+    """Adds the margin of safety, allowed over (ultimate × stress) less 1, or NaN."""
+    factored = ultimate * stress.equivalent.to_numpy(float)
+    allowed = stress.allowed.to_numpy(float)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        margin = allowed / factored - 1.0
+    return stress.assign(margin=np.where(factored > 0.0, margin, np.nan))
+
+
+def worst_elements(
+    stress: pd.DataFrame, ultimate: float, count: int = 10
+) -> pd.DataFrame:
+    """The elements of each component with the highest stress over its allowable.
+
+    Components with known margins first, the smallest ahead. Where no allowable is
+    known the stress itself decides.
+
+    Args:
+        stress: of a load case, see `CaseFound.stress`.
+        ultimate: factor of safety.
+        count: elements per component.
+
+    Returns:
+        Columns `WORST`; Pa, s, m.
+    """
+    rows = with_margin(stress, ultimate)
+    rows = rows[rows.equivalent > 0.0]
+    use = rows.equivalent / rows.allowed
+    rows = rows.assign(use=use.fillna(-1.0))
+    rows = rows.sort_values(["use", "equivalent"], ascending=False, kind="stable")
+    rows["rank"] = rows.groupby("component").cumcount() + 1
+    order = {name: k for k, name in enumerate(dict.fromkeys(rows.component))}
+    rows = rows[rows["rank"] <= count]
+    rows = rows.assign(order=rows.component.map(order)).sort_values(["order", "rank"])
+    return pd.DataFrame(rows, columns=WORST).reset_index(drop=True)
+
+
+def component_table(stress: pd.DataFrame, ultimate: float) -> pd.DataFrame:
+    """The worst element of each component, and the number of its elements."""
+    worst = worst_elements(stress, ultimate, 1)
+    counts = stress.component.value_counts()
+    return worst.assign(elements=counts.loc[worst.component].to_numpy())
+
+
+def section_envelopes(found: PartsFound) -> pd.DataFrame:
+    """Extremes along all beams, see `cuts.envelope_table`."""
+    tables = [
+        envelope_table(cuts, found.time, found.landing.sections[name])
+        for name, cuts in found.cuts.items()
+    ]
+    return pd.concat(tables, ignore_index=True) if tables else pd.DataFrame()
+
+
+def root_histories(found: PartsFound) -> pd.DataFrame:
+    """Shear, bending and torsion at the first cut of each beam over time."""
+    columns = {}
+    for name, cuts in found.cuts.items():
+        named = cuts.named(found.landing.sections[name][:, :1])[:, 0]
+        for q, quantity in enumerate(NAMED):
+            columns[f"{name} {quantity}"] = named[:, q]
+    return pd.DataFrame(columns, index=pd.Index(found.time, name="time"))
+
+
+def panel_table(found: PartsFound) -> pd.DataFrame:
+    """Peaks of the middles of panels beside those of their frames.
+
+    Rows `panel, axis, middle, beside, relative, ratio`: magnitudes, m/s²; `beside` is
+    that of the mean of the neighbours, `relative` of the difference.
+    """
+    rows = []
+    for panel in found.places.panels:
+        middle = found.landing.acceleration[panel.grid]
+        beside = np.mean([found.landing.acceleration[g] for g in panel.beside], axis=0)
+        for i, axis in enumerate("xyz"):
+            a, b = np.abs(middle[:, i]).max(), np.abs(beside[:, i]).max()
+            relative = np.abs(middle[:, i] - beside[:, i]).max()
+            rows.append([panel.name, axis, a, b, relative, a / b if b else np.nan])
+    heads = ["panel", "axis", "middle", "beside", "relative", "ratio"]
+    return pd.DataFrame(rows, columns=heads)
+
+
+def equipment_histories(found: PartsFound) -> dict[str, pd.DataFrame]:
+    """Acceleration of the places of equipment, columns x, y, z."""
+    index = pd.Index(found.time, name="time")
+    return {
+        name: pd.DataFrame(
+            found.landing.acceleration[grid], columns=["x", "y", "z"], index=index
+        )
+        for name, grid in found.places.equipment.items()
+    }

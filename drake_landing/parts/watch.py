@@ -1,0 +1,194 @@
+"""All that is taken from a transient about the parts, of one load case or more."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+import scipy.sparse as sp
+
+from drake_landing.handover import AttachmentLoads
+from drake_landing.parts.cuts import Beam, BeamCuts, beam_cuts, mean_of_three
+from drake_landing.parts.inventory import Inventory
+from drake_landing.parts.places import Places
+from drake_landing.parts.stress import Stresses, stresses
+from drake_landing.parts.stress_watch import Snapshot, StressWatch
+from fem.observation import Observation, Observer
+from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class CaseFound:
+    """One load case.
+
+    Attributes:
+        sections: beam -> (t, n, 6) section loads, columns `COMPONENTS`, axes A.
+        acceleration: grid -> (t, 3), B, m/s².
+        stress: one row per element: `id`, `component`, `material`, `x`, `y`, `z`,
+            `allowed`, `equivalent` and its `time`, `largest`, `smallest` (Pa, s).
+    """
+
+    sections: Mapping[str, Float64]
+    acceleration: Mapping[int, Float64]
+    stress: pd.DataFrame
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartsFound:
+    """What the parts see.
+
+    Attributes:
+        time: (t,) s.
+        cuts: beam -> its cuts.
+        places: panels and equipment.
+        cases: load cases, the landing itself first.
+        worst: component -> displacements when its worst element sees its worst.
+        imbalance: force and moment that the equilibrium of the whole airframe misses,
+            over the largest applied ones.
+    """
+
+    time: Float64
+    cuts: Mapping[str, BeamCuts]
+    places: Places
+    cases: tuple[CaseFound, ...]
+    worst: Mapping[str, Snapshot] = field(repr=False)
+    imbalance: tuple[float, float]
+
+    @property
+    def landing(self) -> CaseFound:
+        """The load case of the landing itself."""
+        return self.cases[0]
+
+
+class PartsWatch:
+    """Observers of a transient, and what they found.
+
+    Args:
+        structure: the full model.
+        places: where to look.
+        elements: of the deck.
+        grids: further grids whose accelerations are wanted.
+        loaded: nodes that loads act on.
+        averaged: the scheme applies means of three loads (Nastran's).
+    """
+
+    def __init__(
+        self,
+        structure: Structure,
+        places: Places,
+        elements: Inventory,
+        grids: Sequence[int],
+        loaded: Int64,
+        *,
+        averaged: bool = True,
+    ) -> None:
+        self.places, self.elements = places, elements
+        self.stresses: Stresses = stresses(structure)
+        self._averaged = averaged
+        self._rows = elements.of(self.stresses.id)
+        self.components, group = np.unique(self._rows.component, return_inverse=True)
+        self._stress = StressWatch(
+            self.stresses, group, self._rows.allowed.to_numpy(float)
+        )
+        node = {int(n): structure.points.xyz[structure.points.rows(n)] for n in loaded}
+        self.cuts = {b.name: beam_cuts(structure, b, node) for b in places.beams}
+        self._whole = beam_cuts(structure, _everything(structure), node)
+        self.grids = np.unique([*grids, *places.grids]).astype(np.int64)
+        self._operators = [
+            *(cuts.of_acceleration for cuts in self.cuts.values()),
+            self._whole.of_acceleration,
+            structure.operator(self.grids, (1, 2, 3), frame="basic"),
+        ]
+        operator = sp.csr_matrix(sp.vstack(self._operators))
+        self._motion = Observation("acceleration", operator)
+        self._drag = structure.damping.mass_factor
+        self._velocity = Observation("velocity", operator) if self._drag else None
+
+    @property
+    def observers(self) -> list[Observer]:
+        """To be given to the transient."""
+        moved: list[Observer] = [self._motion]
+        return [self._stress, *moved, *([self._velocity] if self._velocity else [])]
+
+    def found(self, loads: Sequence[AttachmentLoads]) -> PartsFound:
+        """After the transient, whose load cases these loads are."""
+        cases = [self._case(i, load) for i, load in enumerate(loads)]
+        worst = {
+            str(self.components[k]): snapshot
+            for k, snapshot in self._stress.worst.items()
+        }
+        return PartsFound(
+            time=self._motion.time,
+            cuts=self.cuts,
+            places=self.places,
+            cases=tuple(cases),
+            worst=worst,
+            imbalance=self._imbalance(loads[0]),
+        )
+
+    def _parts(self, case: int, *, inertia: bool) -> list[Float64]:
+        """Accelerations through each operator; of inertia with the drag on the mass."""
+        values = self._motion.values[:, case]
+        if inertia and self._velocity is not None:
+            values = values + self._drag * self._velocity.values[:, case]
+        ends = np.cumsum([len(o.indptr) - 1 for o in self._operators])[:-1]
+        return np.split(values, ends, axis=1)
+
+    def _applied(self, loads: AttachmentLoads) -> Float64:
+        return mean_of_three(loads.load) if self._averaged else loads.load
+
+    def _case(self, case: int, loads: AttachmentLoads) -> CaseFound:
+        applied = self._applied(loads)
+        inertia = self._parts(case, inertia=True)
+        moved = self._parts(case, inertia=False)[-1].reshape(len(applied), -1, 3)
+        return CaseFound(
+            sections={
+                name: cuts.loads(part, loads.node_id, applied)
+                for (name, cuts), part in zip(self.cuts.items(), inertia)
+            },
+            acceleration={int(g): moved[:, i] for i, g in enumerate(self.grids)},
+            stress=self.stress_table(
+                self._stress.equivalent[case],
+                self._stress.time[case],
+                self._stress.largest[case],
+                self._stress.smallest[case],
+            ),
+        )
+
+    def stress_table(
+        self, equivalent: Float64, time: Float64, largest: Float64, smallest: Float64
+    ) -> pd.DataFrame:
+        """See `CaseFound.stress`; arrays (e,) in the order of the stresses."""
+        return self._rows.reset_index().assign(
+            equivalent=equivalent, time=time, largest=largest, smallest=smallest
+        )
+
+    def _imbalance(self, loads: AttachmentLoads) -> tuple[float, float]:
+        applied = self._applied(loads)
+        inertia = self._parts(0, inertia=True)[-2]
+        rest = self._whole.loads(inertia, loads.node_id, applied)[:, 0]
+        given = self._whole.loads(np.zeros_like(inertia), loads.node_id, applied)[:, 0]
+
+        def share(columns: slice) -> float:
+            largest = np.abs(given[:, columns]).max()
+            missed = np.abs(rest[:, columns]).max()
+            return float(missed / largest) if largest else float(missed)
+
+        return share(slice(3)), share(slice(3, 6))
+
+
+def _everything(structure: Structure) -> Beam:
+    """The whole airframe as one part, about its centre of gravity."""
+    p = structure.points.xyz
+    station = float(p[:, 0].min()) - 1.0
+    centre = structure.weight.center.copy()
+    return Beam(
+        name="airframe",
+        outward="aft",
+        stations=np.array([station]),
+        line=centre[None],
+    )

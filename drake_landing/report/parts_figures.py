@@ -1,0 +1,197 @@
+"""Pictures of what the parts see: stresses, section loads, floor, panels, practices."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+from matplotlib.axes import Axes
+
+from drake_landing.parts.cuts import NAMED, BeamCuts
+from drake_landing.parts.watch import PartsFound
+from drake_landing.practices import HYBRID, RIGID, STATIC, Practices
+from drake_landing.report.plots import (
+    INK,
+    MULTIBODY,
+    SERIES,
+    TRANSIENT,
+    common_scale,
+    curve,
+    finish,
+    legend,
+    panels,
+    svg,
+)
+
+Float64 = npt.NDArray[np.float64]
+
+_UNITS = {"shear": "N", "bending": "N m", "torsion": "N m"}
+_PRACTICE = {HYBRID: TRANSIENT, RIGID: MULTIBODY, STATIC: INK}
+
+
+def stress_bars(components: pd.DataFrame) -> str:
+    """Largest equivalent stress of each component, and the share of the allowable.
+
+    Args:
+        components: of `tables.component_table`.
+    """
+    rows = components.sort_values("equivalent")
+    place = np.arange(len(rows))
+    with panels(1, 1, height=0.6 + 0.24 * len(rows)) as (figure, grid):
+        axes = grid[0][0]
+        stress = rows.equivalent.to_numpy() / 1e6
+        axes.barh(place, stress, color=SERIES[5], height=0.62, zorder=2)
+        top = stress.max(initial=1.0)
+        for k, (value, margin) in enumerate(zip(stress, rows.margin)):
+            note = f"{value:.0f}" if value >= 10 else f"{value:.1f}"
+            known = "" if np.isnan(margin) else f"   margin {_signed(margin)}"
+            axes.text(value + 0.008 * top, k, note + known, va="center", size=8)
+        axes.set_yticks(place, rows.component)
+        axes.grid(axis="y", visible=False)
+        axes.set_xlim(0.0, 1.22 * top)
+        axes.set_title("Largest equivalent stress of each component, MPa")
+        return svg(figure, "stress by component")
+
+
+def section_envelopes(
+    cuts: BeamCuts, time: Float64, loads: Float64, instant: int
+) -> str:
+    """Extremes of shear, bending and torsion along a beam, and the loads at an instant.
+
+    Args:
+        cuts: of the beam.
+        time: (t,) s.
+        loads: (t, n, 6) section loads.
+        instant: row of the time that is drawn as a line.
+    """
+    named = cuts.named(loads)
+    beam = cuts.beam
+    along = {"aft": "x", "fore": "x"}.get(beam.outward, "y")
+    with panels(1, 3, height=2.3) as (figure, grid):
+        for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
+            values = named[..., q]
+            factor, unit = common_scale([values], _UNITS[quantity])
+            low, high = factor * values.min(axis=0), factor * values.max(axis=0)
+            axes.fill_between(
+                beam.stations, low, high, color=TRANSIENT, alpha=0.16, linewidth=0
+            )
+            for edge in (low, high):
+                axes.plot(beam.stations, edge, color=TRANSIENT, marker="o", ms=2.2)
+            label, then = f"at {time[instant]:.3f} s", factor * values[instant]
+            curve(axes, beam.stations, then, INK, label, dashed=True)
+            name = f"{beam.name}: {quantity}"
+            finish(axes, name, unit, x=f"station {along}, m")
+        legend(figure, grid[0][0])
+        return svg(figure, f"section loads along the {beam.name}")
+
+
+def root_histories(
+    cuts: BeamCuts, found: PartsFound, practices: Practices | None
+) -> str:
+    """Section loads at the first cut over time, with those of the other practices."""
+    name = cuts.beam.name
+    with panels(1, 3, height=2.2) as (figure, grid):
+        cases = list(zip((HYBRID, RIGID), found.cases))
+        for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
+            histories = [
+                cuts.named(case.sections[name][:, :1])[:, 0, q] for _, case in cases
+            ]
+            factor, unit = common_scale(histories, _UNITS[quantity])
+            for (practice, _), values in reversed(list(zip(cases, histories))):
+                label = practice if practices else "direct transient"
+                curve(axes, found.time, factor * values, _PRACTICE[practice], label)
+            if practices:
+                of = cuts.named(practices.slices.sections[name][:, :1])[:, 0, q]
+                axes.plot(
+                    practices.slices.time,
+                    factor * of,
+                    linestyle="",
+                    marker="D",
+                    ms=4,
+                    color=INK,
+                    label=STATIC,
+                )
+            finish(axes, f"{name}, first cut: {quantity}", unit)
+            axes.set_xlim(found.time[0], found.time[-1])
+        legend(figure, grid[0][0])
+        return svg(figure, f"section loads at the first cut of the {name}")
+
+
+def panel(found: PartsFound, at: int, axis: int) -> str:
+    """Acceleration of a panel's middle beside that of its frames.
+
+    Args:
+        found: what the parts see.
+        at: which of the panels.
+        axis: 0, 1, 2: across the panel, B.
+    """
+    place = found.places.panels[at]
+    motion = found.landing.acceleration
+    middle = motion[place.grid][:, axis]
+    beside = np.mean([motion[g][:, axis] for g in place.beside], axis=0)
+    with panels(1, 2, height=2.3) as (figure, grid):
+        both, relative = grid[0]
+        curve(both, found.time, middle, TRANSIENT, "between the frames")
+        curve(both, found.time, beside, INK, "on the frames, mean")
+        finish(both, f"{place.name.split(' between')[0]}, {'xyz'[axis]}", "m/s²")
+        curve(relative, found.time, middle - beside, SERIES[0], "difference")
+        finish(relative, "middle less frames", "m/s²")
+        legend(figure, both)
+        return svg(figure, f"panel {place.name}")
+
+
+def equipment(
+    histories: Mapping[str, pd.DataFrame],
+    frequency: Float64,
+    spectra: Mapping[str, Float64],
+    title: str,
+) -> str:
+    """Vertical accelerations of some places, and their shock response spectra.
+
+    Args:
+        histories: place -> columns x, y, z over time, m/s².
+        frequency: (f,) Hz.
+        spectra: place -> (f,) m/s².
+        title: what the places have in common.
+    """
+    with panels(1, 2, height=2.2, shared=False) as (figure, grid):
+        motion, response = grid[0]
+        for color, name in zip((TRANSIENT, MULTIBODY, *SERIES), histories):
+            values, label = histories[name]["z"], name.split(",")[0]
+            curve(motion, values.index, values, color, label)
+            curve(response, frequency, spectra[name], color)
+        finish(motion, f"{title}: acceleration, z", "m/s²")
+        finish(response, "shock response spectrum", "m/s²", x="frequency, Hz")
+        response.set_xscale("log")
+        response.set_xticks([2, 5, 10, 20, 50, 100, 200])
+        response.xaxis.set_major_formatter("{x:g}")
+        response.xaxis.minorticks_off()
+        legend(figure, motion)
+        return svg(figure, f"floor accelerations {title}")
+
+
+def practice_errors(practices: Practices) -> str:
+    """Errors of the other practices against the hybrid process, each quantity."""
+    table = practices.table
+    quantities = list(dict.fromkeys(zip(table.kind, table.quantity)))
+    place = np.arange(len(quantities))[::-1]
+    with panels(1, 1, height=0.6 + 0.26 * len(quantities)) as (figure, grid):
+        axes = grid[0][0]
+        for practice, shift in ((RIGID, 0.17), (STATIC, -0.17)):
+            rows = table[table.practice == practice].set_index(["kind", "quantity"])
+            error = np.array([rows.error[q] for q in quantities])
+            _bars(axes, place + shift, 100 * error, _PRACTICE[practice], practice)
+        axes.set_yticks(place, [q for _, q in quantities])
+        axes.grid(axis="y", visible=False)
+        axes.axvline(0.0, color=INK, linewidth=0.8)
+        axes.set_title("Peak against that of the hybrid process, %")
+        legend(figure, axes)
+        return svg(figure, "errors of the practices")
+
+
+def _bars(axes: Axes, place: Float64, values: Float64, color: str, label: str) -> None:
+    axes.barh(place, values, height=0.32, color=color, label=label, zorder=2)
+
+
+def _signed(margin: float) -> str:
+    return f"{margin:+.1f}" if margin < 10 else "> 10"

@@ -1,0 +1,309 @@
+"""The part of the report on what the parts see."""
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from drake_landing.comparison import shock_response_spectrum
+from drake_landing.parts import tables
+from drake_landing.parts.cuts import BeamCuts
+from drake_landing.practices import HYBRID, RIGID, STATIC, Practices
+from drake_landing.report import parts_figures as figures
+from drake_landing.report.page import Block, Section, png_block, table_block
+
+if TYPE_CHECKING:
+    from drake_landing.process import ProcessResult
+
+SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
+Picture = tuple[Path, str]
+# Beams whose loads differ less are mirror images and are shown once.
+_ALIKE = 0.01
+
+_COMPONENT = {
+    "component": "component",
+    "elements": "elements",
+    "id": "worst element",
+    "equivalent": "equivalent MPa",
+    "largest": "largest MPa",
+    "smallest": "smallest MPa",
+    "time": "time s",
+    "x": "x m",
+    "y": "y m",
+    "z": "z m",
+    "allowed": "allowable MPa",
+    "margin": "margin",
+}
+_FORMATS = {
+    **dict.fromkeys(("equivalent", "largest", "smallest"), ".1f"),
+    **dict.fromkeys(("x", "y", "z"), ".2f"),
+    **{"time": ".3f", "allowed": ".0f", "margin": "+.2f"},
+}
+
+
+def parts_sections(
+    result: "ProcessResult", pictures: Sequence[Picture], unable: str
+) -> Iterator[Section]:
+    """The sections in their order.
+
+    Args:
+        result: of the run.
+        pictures: PNG files and what they show.
+        unable: why there are none.
+    """
+    yield _stresses(result, pictures, unable)
+    yield _section_loads(result)
+    if result.parts.places.panels:
+        yield _panels(result)
+    yield _equipment(result)
+    if result.practices is not None:
+        yield _practices(result, result.practices)
+
+
+def _stresses(
+    result: "ProcessResult", pictures: Sequence[Picture], unable: str
+) -> Section:
+    stress, factor = result.parts.landing.stress, result.case.parts.ultimate_factor
+    components = tables.component_table(stress, factor)
+    worst = tables.worst_elements(stress, factor)
+    blocks = [png_block(path, caption) for path, caption in pictures]
+    if len(components):
+        blocks += [
+            Block(svg=figures.stress_bars(components)),
+            table_block(
+                _mega(components), _COMPONENT, _FORMATS, "Worst element per component"
+            ),
+            table_block(
+                _mega(worst),
+                {"component": "component", "rank": "no."}
+                | {
+                    k: v
+                    for k, v in _COMPONENT.items()
+                    if k not in ("component", "elements")
+                },
+                _FORMATS,
+                "The worst ten elements of each component",
+                fold=True,
+            ),
+        ]
+    text = (
+        "Increments to steady flight in the direct transient, all elements at all "
+        "steps. Equivalent: von Mises of the sheet itself, the larger of both fibres; "
+        "of bars the largest direct stress. Margin of safety: allowable over "
+        f"{factor:g} times the stress, less 1; the stress of steady flight is not in "
+        "it. "
+    )
+    if not len(components):
+        text += "The model has no element with stresses. "
+    return Section(
+        id="parts",
+        title="What the parts see: stresses",
+        text=text + unable,
+        blocks=blocks,
+    )
+
+
+def _mega(table: pd.DataFrame) -> pd.DataFrame:
+    columns = ["equivalent", "largest", "smallest", "allowed"]
+    return table.assign(**{c: table[c] / 1e6 for c in columns})
+
+
+def _section_loads(result: "ProcessResult") -> Section:
+    found = result.parts
+    blocks, left_out = [], []
+    shown: list[tuple[str, np.ndarray]] = []
+    for name, cuts in found.cuts.items():
+        loads = found.landing.sections[name]
+        named = np.abs(cuts.named(loads))
+        twin = next((n for n, other in shown if _alike(named, other)), None)
+        if twin is not None:
+            left_out.append(f"the {name} sees the same as the {twin}, mirrored")
+            continue
+        shown.append((name, named))
+        worst = int(np.argmax(np.abs(cuts.named(loads)[:, 0, 1])))
+        blocks += [
+            Block(svg=figures.section_envelopes(cuts, found.time, loads, worst)),
+            Block(svg=figures.root_histories(cuts, found, result.practices)),
+        ]
+    blocks.append(_section_table(result, [name for name, _ in shown]))
+    also = f" Left out: {'; '.join(left_out)}." if left_out else ""
+    return Section(
+        id="sections",
+        title="Section loads",
+        text="Resultant of the gears' loads and of the inertia of everything beyond "
+        "the cut, from the masses of the full model and its accelerations. Shear is "
+        "upward, bending lifts the outer end, torsion turns about the outward "
+        "direction. Shaded: extremes over time; dashed: when bending at the first cut "
+        "is largest. The equilibrium of the whole airframe is missed by "
+        f"{found.imbalance[0]:.0e} of the largest applied force and "
+        f"{found.imbalance[1]:.0e} of the moment.{also} All six components: "
+        "results.h5, group parts/sections; extremes: section_loads.csv.",
+        blocks=blocks,
+    )
+
+
+def _alike(a: np.ndarray, b: np.ndarray) -> bool:
+    return a.shape == b.shape and bool(np.abs(a - b).max() <= _ALIKE * np.abs(b).max())
+
+
+def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
+    """Extremes at the first cuts."""
+    table = tables.section_envelopes(result.parts)
+    first = [_first(result.parts.cuts[name]) for name in names]
+    keep = [
+        (row.beam, row.station) in set(zip(names, first)) for row in table.itertuples()
+    ]
+    table = table[keep].copy()
+    kilo = ["min", "max"]
+    table[kilo] = table[kilo] / 1e3
+    heads = {
+        "beam": "beam",
+        "station": "first cut m",
+        "quantity": "quantity",
+        "min": "least kN, kNm",
+        "time_of_min": "at s",
+        "max": "largest kN, kNm",
+        "time_of_max": "at s ",
+    }
+    formats = {"station": ".2f", "min": ".1f", "max": ".1f"}
+    formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
+    return table_block(table, heads, formats, "Extremes at the first cuts")
+
+
+def _first(cuts: BeamCuts) -> float:
+    return float(cuts.beam.stations[0])
+
+
+def _panels(result: "ProcessResult") -> Section:
+    found = result.parts
+    table = tables.panel_table(found)
+    pictures = []
+    for i, place in enumerate(found.places.panels):
+        own = table[table.panel == place.name].reset_index(drop=True)
+        axis = int(own.relative.argmax())
+        pictures.append(Block(svg=figures.panel(found, i, axis)))
+    heads = {
+        "panel": "panel",
+        "axis": "axis",
+        "middle": "middle m/s²",
+        "beside": "frames m/s²",
+        "relative": "difference m/s²",
+        "ratio": "middle / frames",
+    }
+    formats = dict.fromkeys(("middle", "beside", "relative", "ratio"), ".2f")
+    return Section(
+        id="panels",
+        title="Between two frames",
+        text="Acceleration of a point in the middle of a panel beside the mean of its "
+        "neighbours on the frames: what a model without the panel cannot show.",
+        blocks=[*pictures, table_block(table, heads, formats, "Peaks")],
+    )
+
+
+def _equipment(result: "ProcessResult") -> Section:
+    histories = tables.equipment_histories(result.parts)
+    step = result.loads.step
+    spectra = {
+        name: shock_response_spectrum(table["z"].to_numpy(), step, SPECTRUM_HZ)
+        for name, table in histories.items()
+    }
+    rows = []
+    for name, table in histories.items():
+        at = int(np.argmax(spectra[name]))
+        peaks = table.abs().max()
+        rows.append(
+            {
+                "place": name.replace("_", " "),
+                **{axis: float(peaks[axis]) for axis in "xyz"},
+                "spectrum": float(spectra[name][at]),
+                "hertz": float(SPECTRUM_HZ[at]),
+            }
+        )
+    heads = {
+        "place": "place",
+        "x": "peak x m/s²",
+        "y": "peak y m/s²",
+        "z": "peak z m/s²",
+        "spectrum": "largest response m/s²",
+        "hertz": "at Hz",
+    }
+    formats = dict.fromkeys(("x", "y", "z", "spectrum", "hertz"), ".1f")
+    groups: dict[str, list[str]] = {}
+    for name in histories:
+        groups.setdefault(name.split(", ", 1)[-1], []).append(name)
+    pictures = [
+        Block(
+            svg=figures.equipment(
+                {n: histories[n] for n in names},
+                SPECTRUM_HZ,
+                {n: spectra[n] for n in names},
+                title.replace("_", " "),
+            )
+        )
+        for title, names in groups.items()
+    ]
+    return Section(
+        id="floor",
+        title="Floor, rails, equipment",
+        text="Accelerations of places that carry equipment, and the largest "
+        "acceleration of an oscillator (Q = 10) that stands there and is shaken "
+        "vertically, over its natural frequency.",
+        blocks=[
+            *pictures,
+            table_block(pd.DataFrame(rows), heads, formats, "Peaks and spectra"),
+        ],
+    )
+
+
+def _practices(result: "ProcessResult", practices: Practices) -> Section:
+    rows = []
+    table = practices.table
+    for kind, quantity in dict.fromkeys(zip(table.kind, table.quantity)):
+        own = table[(table.kind == kind) & (table.quantity == quantity)]
+        by = own.set_index("practice")
+        unit = str(own.unit.iloc[0])
+        factor, shown = {
+            "Pa": (1e-6, "MPa"), "N": (1e-3, "kN"), "N m": (1e-3, "kNm")
+        }.get(unit, (1.0, unit))  # fmt: skip
+        rows.append(
+            {
+                "kind": kind,
+                "quantity": f"{quantity}, {shown}",
+                "hybrid": factor * by.value[HYBRID],
+                "at": by.time[HYBRID],
+                "rigid": factor * by.value[RIGID],
+                "rigid_error": by.error[RIGID],
+                "static": factor * by.value[STATIC],
+                "static_error": by.error[STATIC],
+            }
+        )
+    heads = {
+        "kind": "kind",
+        "quantity": "quantity",
+        "hybrid": "hybrid",
+        "at": "at s",
+        "rigid": "rigid gear loads",
+        "rigid_error": "error",
+        "static": "static slices",
+        "static_error": "error ",
+    }
+    formats = dict.fromkeys(("hybrid", "rigid", "static"), ".2f") | {"at": ".3f"}
+    formats |= dict.fromkeys(("rigid_error", "static_error"), "+.0%")
+    slices = practices.slices
+    instants = "; ".join(
+        f"{t:.3f} s ({why})" for t, why in zip(slices.time, slices.reason)
+    )
+    return Section(
+        id="practices",
+        title="Three practices for the same landing",
+        text="Rigid gear loads: the gears land under a rigid airframe, their loads act "
+        "on the flexible model. Static slices: the loads of the hybrid process at "
+        f"{instants}, balanced by rigid inertia. Hybrid: this report. Errors compare "
+        "magnitudes of peaks; quantities that vanish by symmetry are left out.",
+        blocks=[
+            Block(svg=figures.practice_errors(practices)),
+            table_block(pd.DataFrame(rows), heads, formats, "Peaks"),
+        ],
+    )
