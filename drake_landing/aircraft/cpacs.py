@@ -11,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
+import scipy.optimize
 
 from drake_landing.aircraft import facts as store
 from drake_landing.aircraft import geometry, reference_axis
@@ -19,9 +21,12 @@ from drake_landing.aircraft.generator import write_model
 from drake_landing.aircraft.model import AircraftModel
 
 _MATERIALS = {"al2024": "2024", "al7075": "7075"}
+# Ribs that other facts name.
+_RIBS_WITH_A_ROLE = ("R01", "R04", "R05", "R06", "R07", "R08", "R10", "R11")
+_NEAR = 0.06  # of the span: as far as a rib may stand from that whose role it takes
 _AXIS = 0.5  # chord fraction of the structural axis
 _STAYS = (
-    "ribs",
+    "ribs of tailplane and fin",
     "movables",
     "engines and pylons",
     "landing gears",
@@ -96,6 +101,9 @@ def _replacements(
         facts["wing"] = {**store.facts("wing"), **_wing(found.wing)}
         if note(found.wing.spars is not None, "wing spars"):
             facts["wing"] |= _spars(found.wing)
+        ribs, reason = rib_table(found.ribs)
+        if note(ribs is not None, f"wing ribs{reason}"):
+            tables["wing_ribs"] = ribs
     tails = dict(store.facts("tails"))
     for name, tail in (("tailplane", found.tailplane), ("fin", found.fin)):
         if note(tail is not None, f"{name} planform"):
@@ -121,6 +129,44 @@ def _replacements(
             materials[name] = {**materials[name], **data}
     facts["materials"] = materials
     return facts, tables, taken, defaults
+
+
+def rib_table(ribs: np.ndarray | None) -> tuple[pd.DataFrame | None, str]:
+    """The generator's table for ribs of a file, and what is to be said of them.
+
+    Other facts speak of ribs by name: the side of the body, the engine's, the gear's.
+    These names go to the ribs of the file that are nearest, in order.
+
+    Args:
+        ribs: (n, 2) share of the span at the front spar, angle in degrees; or None.
+
+    Returns:
+        The table, None where the built-in ribs stay; the number of ribs, or the reason.
+    """
+    ours = store.table("wing_ribs")
+    if ribs is None:
+        return None, ""
+    roles = ours[ours.rib.isin(_RIBS_WITH_A_ROLE)]
+    if len(ribs) < len(roles):
+        return None, f" (the file has {len(ribs)}, at least {len(roles)} are needed)"
+    away = (roles.eta_front_spar.to_numpy()[:, None] - ribs[:, 0]) ** 2
+    role, at = scipy.optimize.linear_sum_assignment(away)
+    far = int(np.argmax(away[role, at]))
+    if away[role, at][far] > _NEAR**2:
+        return None, f" (none of the file's is near rib {roles.rib.iloc[role[far]]})"
+    names = np.array([f"F{k + 1:02d}" for k in range(len(ribs))], dtype=object)
+    names[at] = roles.rib.to_numpy()[role]
+    table = pd.DataFrame(
+        {
+            "rib": names,
+            "part": "wing",
+            "eta_front_spar": ribs[:, 0],
+            "angle_deg": ribs[:, 1],
+            "source": "CPACS",
+            "estimate": False,
+        }
+    )
+    return table, f" ({len(ribs)})"
 
 
 def _wing(wing: Surface) -> dict[str, Any]:

@@ -1,11 +1,11 @@
 """What a CPACS 2 or 3 file says of an aircraft, as facts of the generator.
 
-Read are the planform, incidence and spars of wing, tailplane and fin, the sections and
-frames of the fuselage and the isotropic materials. A section stands where the chain of
-positionings ends: length along a direction swept by `sweepAngle` and raised by
-`dihedralAngle`; its chord is the product of the scalings. Surfaces are told apart by
-what they are: the largest symmetric one is the wing, the other one the tailplane, an
-upright one without symmetry the fin.
+Read are the planform, incidence and spars of wing, tailplane and fin, the ribs of the
+wing's box, the sections and frames of the fuselage and the isotropic materials. A
+section stands where the chain of positionings ends: length along a direction swept by
+`sweepAngle` and raised by `dihedralAngle`; its chord is the product of the scalings.
+Surfaces are told apart by what they are: the largest symmetric one is the wing, the
+other one the tailplane, an upright one without symmetry the fin.
 """
 
 from dataclasses import dataclass
@@ -16,9 +16,11 @@ import numpy as np
 import numpy.typing as npt
 from lxml import etree
 
+from drake_landing.aircraft.cpacs_ribs import Plan, read_ribs
 from fem.errors import InputError
 
 Float64 = npt.NDArray[np.float64]
+_STRUCTURE = "componentSegments/componentSegment/structure"
 _UPRIGHT = 45.0  # deg of rotation about x
 
 
@@ -59,6 +61,7 @@ class CpacsAircraft:
     wing: Surface | None
     tailplane: Surface | None
     fin: Surface | None
+    ribs: Float64 | None  # (n, 2) of the wing: share of the span, angle, see read_ribs
     fuselage: Float64 | None  # (n, 4): x, width, bottom, top
     frames: dict[str, float]
     materials: dict[str, dict[str, float]]
@@ -96,8 +99,8 @@ def _aircraft(root: Any, model: Any) -> CpacsAircraft:
         p.get("uID"): _list(p, ".//z") for p in root.iterfind(".//wingAirfoils/*")
     }
     version = str(root.findtext("header/cpacsVersion") or "?")
-    wings = model.iterfind("wings/wing")
-    surfaces = [_surface(wing, profiles, version) for wing in wings]
+    wings = {str(w.get("uID")): w for w in model.iterfind("wings/wing")}
+    surfaces = [_surface(wing, profiles, version) for wing in wings.values()]
     level = [s for s in surfaces if s.symmetric and not s.upright]
     level.sort(key=lambda s: -float(np.ptp(s.leading[:, 1]) * s.chord.mean()))
     upright = [s for s in surfaces if s.upright and not s.symmetric]
@@ -108,6 +111,7 @@ def _aircraft(root: Any, model: Any) -> CpacsAircraft:
         wing=level[0] if level else None,
         tailplane=level[1] if len(level) > 1 else None,
         fin=upright[0] if upright else None,
+        ribs=_ribs(wings[level[0].uid], level[0]) if level else None,
         fuselage=None if fuselage is None else _fuselage(fuselage),
         frames={
             f.get("uID"): _number(f, "positionX")
@@ -134,6 +138,8 @@ def _surface(wing: Any, profiles: dict[str, Float64], version: str) -> Surface:
         factor = scale[1] if by_y else scale[2]
         ordinate = profiles[str(element.findtext("airfoilUID"))]
         thickness.append(float(np.ptp(ordinate)) * factor)
+    spars = _spars(wing)
+    box = _box(spars)
     return Surface(
         uid=str(wing.get("uID")),
         origin=_vector(wing, "transformation/translation", 0.0),
@@ -141,9 +147,34 @@ def _surface(wing: Any, profiles: dict[str, Float64], version: str) -> Surface:
         leading=np.array(leading),
         chord=np.array(chord),
         thickness=np.array(thickness),
-        spars=_spars(wing),
+        spars=None if box is None else (spars[box[0]], spars[box[1]]),
         symmetric=wing.get("symmetry") == "x-z-plane",
     )
+
+
+def _box(spars: dict[str, Float64]) -> tuple[str, str] | None:
+    """Front and rear spar: the first two; None without two."""
+    if len(spars) < 2:
+        return None
+    front, rear = sorted(list(spars)[:2], key=lambda uid: spars[uid][:, 1].mean())
+    return front, rear
+
+
+def _ribs(wing: Any, surface: Surface) -> Float64 | None:
+    """See `read_ribs`; None without a box."""
+    spars = _spars(wing)
+    box = _box(spars)
+    if box is None:
+        return None
+    plan = Plan(
+        y=surface.leading[:, 1],
+        x=surface.leading[:, 0],
+        chord=surface.chord,
+        spars=spars,
+        front=box[0],
+        rear=box[1],
+    )
+    return read_ribs(wing.find(_STRUCTURE), plan)
 
 
 def _positions(body: Any) -> dict[str, Float64]:
@@ -171,24 +202,22 @@ def _positions(body: Any) -> dict[str, Float64]:
     return found
 
 
-def _spars(wing: Any) -> tuple[Float64, Float64] | None:
-    """First two spars of the first component segment, front first."""
-    segment = wing.find("componentSegments/componentSegment/structure/spars")
+def _spars(wing: Any) -> dict[str, Float64]:
+    """uID -> (k, 2) share of the span and chord fraction; of the first segment."""
+    segment = wing.find(f"{_STRUCTURE}/spars")
     if segment is None:
-        return None
+        return {}
     points = {}
     for point in segment.iterfind("sparPositions/sparPosition"):
         place = point.find("sparPositionEtaXsi")
         place = point if place is None else place
         points[point.get("uID")] = (_number(place, "eta"), _number(place, "xsi"))
-    spars = [
-        np.array(sorted(points[uid.text] for uid in spar.find("sparPositionUIDs")))
+    return {
+        str(spar.get("uID")): np.array(
+            sorted(points[uid.text] for uid in spar.find("sparPositionUIDs"))
+        )
         for spar in segment.iterfind("sparSegments/sparSegment")
-    ]
-    if len(spars) < 2:
-        return None
-    front, rear = sorted(spars[:2], key=lambda s: s[:, 1].mean())
-    return front, rear
+    }
 
 
 def _fuselage(fuselage: Any) -> Float64 | None:
