@@ -5,6 +5,7 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
+import numpy.typing as npt
 
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
@@ -17,6 +18,7 @@ from fem.solution.static import solve_statics
 from fem.solution.transient import solve_transients
 from fem.structure import Structure
 
+Float64 = npt.NDArray[np.float64]
 _Solver = Callable[[Structure, list[Subcase], ResultFile, Options], None]
 
 _SOLVERS: dict[int, _Solver] = {
@@ -25,6 +27,7 @@ _SOLVERS: dict[int, _Solver] = {
     109: solve_transients,
     112: solve_transients,
 }
+_TRANSIENT = frozenset({109, 112})
 _ANALYSES = {"STATICS": 101, "STATIC": 101, "MODES": 103, "DTRAN": 109, "MTRAN": 112}
 
 
@@ -51,6 +54,11 @@ def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
     with ResultFile(path) as results:
         _introduce(structure, options)
         results.write_model(structure)
+        if options.envelope and not _TRANSIENT.intersection(n for n, _ in work):
+            options.console.say(
+                "notice: --envelope has no effect: no subcase is a transient (SOL 109, "
+                "112); there are no extremes over time"
+            )
         for number, subcases in work:
             _say_what_is_left_out(number, subcases, options)
             _SOLVERS[number](structure, subcases, results, options)
@@ -110,10 +118,9 @@ def _introduce(structure: Structure, options: Options) -> None:
         f"{structure.deck.path.name}: {len(points.grid_id)} grids, {elements}; "
         f"{structure.size} free of {points.size} freedoms"
     )
-    x, y, z = weight.center
-    i = weight.inertia
-    # Rounding of products that cancel is no information.
-    i = np.where(np.abs(i) > 1e-12 * np.abs(i).max(initial=0.0), i, 0.0)
+    # Rounding of sums that cancel is no information, nor is the sign of a zero.
+    x, y, z = _rounded(weight.center, np.abs(points.xyz).max(initial=0.0))
+    i = _rounded(weight.inertia, np.abs(weight.inertia).max(initial=0.0))
     console.say(
         f"mass {weight.total:.7g}, centre of gravity {x:.7g} {y:.7g} {z:.7g}, inertia "
         f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
@@ -123,3 +130,8 @@ def _introduce(structure: Structure, options: Options) -> None:
         console.say(f"notice: {notice}")
     if options.quality and not structure.quality.empty:
         console.say(structure.quality.to_string(index=False, float_format="%.4g"))
+
+
+def _rounded(values: Float64, scale: float) -> Float64:
+    """Values without those that are rounding beside a scale."""
+    return np.where(np.abs(values) > 1e-12 * scale, values, 0.0)

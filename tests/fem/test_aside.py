@@ -50,12 +50,13 @@ def test_a_full_disk_leaves_the_old_file_and_names_it(tmp_path: Path, write) -> 
 
 
 def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:
-    with (
-        pytest.raises(KeyboardInterrupt),
-        written_aside(tmp_path / "a.txt") as part,
-    ):
-        part.write_text("half")
-        raise KeyboardInterrupt
+    def write() -> None:
+        with written_aside(tmp_path / "a.txt") as part:
+            part.write_text("half")
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        write()
     assert list(tmp_path.iterdir()) == []
 
 

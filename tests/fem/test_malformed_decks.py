@@ -1,0 +1,87 @@
+"""Malformed decks, run: a clear message or a right answer, in time.
+
+Two hundred mutations of a deck with statics, modes and a transient go through the
+command line. What ends well has finite results, and its loads, inertia not being asked
+for in statics, are carried by its supports.
+"""
+
+import random
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+from mixed_structure import CONTROL, deck, plain
+from mutations import mutate
+
+import fem
+from fem.cli import _status
+from fem.points import Points
+
+TRANSIENT = """\
+SUBCASE 3
+ANALYSIS=DTRAN
+DLOAD=9
+TSTEP=8
+BEGIN BULK
+TLOAD1,9,3,,,7
+TABLED1,7
+,0.,0.,.01,1.,.02,0.,ENDT
+TSTEP,8,20,.001
+"""
+
+
+def good_deck() -> str:
+    """Every solution in one deck."""
+    assert "BEGIN BULK\n" in CONTROL
+    text = deck(plain()).replace("BEGIN BULK\n", TRANSIENT)
+    return text.replace("ESE=ALL", "ESE=ALL\nOLOAD=ALL")
+
+
+def unbalance(path: Path, results: Path) -> float:
+    """Resultant of loads and reactions of the first static subcase over the largest."""
+    points = Points.from_deck(fem.read_deck(path))
+    with h5py.File(results) as file:
+        values = []
+        file.visititems(
+            lambda _, item: (
+                values.append(item[()]) if isinstance(item, h5py.Dataset) else None
+            )
+        )
+        for value in values:
+            assert value.dtype.kind != "f" or np.isfinite(value).all()
+        statics = file.get("static")
+        if not statics:
+            return 0.0
+        found = next(iter(statics.values()))
+        if "applied_load" not in found or "spc_force" not in found:
+            return 0.0
+        force = found["applied_load"][:, :3] + found["spc_force"][:, :3]
+        largest = np.abs(found["spc_force"][:, :3]).max()
+    resultant = np.einsum("gij,gj->i", points.rotation, force)
+    return float(np.abs(resultant).max() / max(largest, 1e-30))
+
+
+def test_the_deck_is_good(tmp_path, capsys):
+    path = tmp_path / "model.bdf"
+    path.write_text(good_deck())
+    assert _status([str(path), "--out", str(tmp_path)]) == 0
+    assert "direct transient" in capsys.readouterr().out
+    assert unbalance(path, tmp_path / "model.h5") < 1e-8
+
+
+@pytest.mark.timeout(30)
+@pytest.mark.parametrize("seed", range(200))
+def test_a_malformed_deck_ends_in_a_message_or_a_right_answer(seed, tmp_path, capsys):
+    path = tmp_path / "model.bdf"
+    path.write_text(mutate(good_deck(), random.Random(seed)), encoding="utf-8")
+    status = _status([str(path), "--out", str(tmp_path)])
+    error = capsys.readouterr().err
+    assert "Traceback" not in error
+    if status == 0:
+        assert unbalance(path, tmp_path / "model.h5") < 1e-6
+    else:
+        assert status == 2
+        assert error.startswith("error: ")
+        assert len(error) > 20
+        assert [p.name for p in tmp_path.iterdir()] == ["model.bdf"]
