@@ -17,7 +17,6 @@ from drake_landing.basis import Basis, elastic_basis, with_residual_vectors
 from drake_landing.cache import Cache
 from drake_landing.case import Airframe
 from drake_landing.free_flight import check_mass
-from drake_landing.gear_checks import check_gears
 from drake_landing.inputs import Aircraft
 from drake_landing.progress import Reporter, Silent
 from drake_landing.scenario import Scenario
@@ -116,8 +115,6 @@ def load_airframe(
     structure = structure or aircraft.structure()
     check_nodes(structure, aircraft)
     check_mass(structure)
-    R_AB = rotation_AB(airframe.axes)
-    check_gears(structure, aircraft, R_AB)
     basis = elastic_basis(
         structure,
         airframe,
@@ -132,6 +129,7 @@ def load_airframe(
         basis = select_modes(candidates, airframe.select)
     if airframe.residual_vectors:
         basis = with_residual_vectors(structure, basis, aircraft.attachment_nodes)
+    R_AB = rotation_AB(airframe.axes)
     body = modal_body(structure, basis, aircraft.multibody_nodes, R_AB)
     return AirframeModel(structure=structure, basis=basis, body=body, R_AB=R_AB)
 

@@ -12,12 +12,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from drake_landing.airframe import AirframeModel, load_airframe
+from drake_landing.airframe import AirframeModel, check_nodes, load_airframe
 from drake_landing.axes import rotation_AB
 from drake_landing.cache import Cache
 from drake_landing.case import Case
 from drake_landing.cases_io import case_text
 from drake_landing.comparison import RunLabel, comparison_table
+from drake_landing.deck_units import check_units, in_deck_units
 from drake_landing.extremes import element_envelopes, worst_elements
 from drake_landing.gear_checks import check_gears
 from drake_landing.handover import AttachmentLoads, smooth_curve
@@ -35,6 +36,7 @@ from drake_landing.response import transient_response
 from drake_landing.results import write_csv, write_history_csv, write_results
 from drake_landing.stages import Spent, Stages, Timed
 from drake_landing.transient_deck import transient_deck, write_transient_deck
+from fem.deck.units import units_of
 from fem.envelope import Envelope
 from fem.structure import Structure
 from fem.transient import TransientRun
@@ -115,6 +117,9 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     stages.begin("reading the deck")
     aircraft = prepare_aircraft(case, out)
     structure = aircraft.structure()
+    check_nodes(structure, aircraft)
+    check_units(structure, aircraft)
+    remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
     stages.begin("assembling the matrices")
     _assemble(structure)
     stages.begin("eigenmodes")
@@ -194,7 +199,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         notices=(
             *aircraft.notices,
             *airframe.notices,
-            *check_gears(structure, aircraft, airframe.R_AB),
+            *remarks,
             *fast_mode_notices(airframe.body, case.simulation),
         ),
         stages=stages,
@@ -308,10 +313,10 @@ def write_landing_deck(
     airframe: AirframeModel,
     loads: AttachmentLoads,
 ) -> None:
-    """The complete SOL 109 deck of this landing."""
+    """The complete SOL 109 deck of this landing, in the units of the user's deck."""
     lines = transient_deck(
         aircraft.deck,
-        loads,
+        in_deck_units(loads, units_of(aircraft.units)),
         airframe.displacement_axes(loads.node_id),
         output=list(aircraft.monitoring.values()),
         selections=airframe.selections,

@@ -125,5 +125,7 @@ def _cell(value: Any, spec: str) -> Cell:
     if isinstance(value, float) and math.isnan(value):
         return Cell(text="–", number=True)
     if isinstance(value, int | float):
-        return Cell(text=format(value, f"z{spec}" if spec else ""), number=True)
+        sign = "+" if spec.startswith("+") else ""
+        spec = f"{sign}z{spec.removeprefix(sign)}" if spec else ""
+        return Cell(text=format(value, spec), number=True)
     return Cell(text=str(value))

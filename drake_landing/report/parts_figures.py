@@ -1,6 +1,7 @@
 """Pictures of what the parts see: stresses, section loads, floor, panels, practices."""
 
 from collections.abc import Mapping
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +27,7 @@ from drake_landing.report.plots import (
 Float64 = npt.NDArray[np.float64]
 
 _UNITS = {"shear": "N", "bending": "N m", "torsion": "N m"}
+_ROUNDING = 1e-5
 _PRACTICE = {HYBRID: TRANSIENT, RIGID: MULTIBODY, STATIC: INK}
 
 
@@ -64,7 +66,7 @@ def section_envelopes(
         loads: (t, n, 6) section loads.
         instant: row of the time that is drawn as a line.
     """
-    named = cuts.named(loads)
+    named = _without_rounding(cuts.named(loads))
     beam = cuts.beam
     along = {"aft": "x", "fore": "x"}.get(beam.outward, "y")
     with panels(1, 3, height=2.3) as (figure, grid):
@@ -81,6 +83,8 @@ def section_envelopes(
             curve(axes, beam.stations, then, INK, label, dashed=True)
             name = f"{beam.name}: {quantity}"
             finish(axes, name, unit, x=f"station {along}, m")
+            if not np.any(values):
+                axes.set_ylim(-1.0, 1.0)
         legend(figure, grid[0][0])
         return svg(figure, f"section loads along the {beam.name}")
 
@@ -92,10 +96,12 @@ def root_histories(
     name = cuts.beam.name
     with panels(1, 3, height=2.2) as (figure, grid):
         cases = list(zip((HYBRID, RIGID), found.cases))
+        roots = [
+            _without_rounding(cuts.named(case.sections[name][:, :1])[:, 0])
+            for _, case in cases
+        ]
         for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
-            histories = [
-                cuts.named(case.sections[name][:, :1])[:, 0, q] for _, case in cases
-            ]
+            histories = [root[:, q] for root in roots]
             factor, unit = common_scale(histories, _UNITS[quantity])
             for (practice, _), values in reversed(list(zip(cases, histories))):
                 label = practice if practices else "direct transient"
@@ -113,8 +119,17 @@ def root_histories(
                 )
             finish(axes, f"{name}, first cut: {quantity}", unit)
             axes.set_xlim(found.time[0], found.time[-1])
+            if not np.any(histories[0]):
+                axes.set_ylim(-1.0, 1.0)
         legend(figure, grid[0][0])
         return svg(figure, f"section loads at the first cut of the {name}")
+
+
+def _without_rounding(named: Float64) -> Float64:
+    """Loads (..., 3) that are nought by symmetry without what rounding left there."""
+    size = np.abs(named).reshape(-1, 3).max(axis=0)
+    # Shear in N and moments in N m of one beam: of one order, some metres apart.
+    return np.where(size > _ROUNDING * size.max(), named, 0.0)
 
 
 def panel(found: PartsFound, at: int, axis: int) -> str:
@@ -174,7 +189,9 @@ def practice_errors(practices: Practices) -> str:
     """Errors of the other practices against the hybrid process, each quantity."""
     table = practices.table
     quantities = list(dict.fromkeys(zip(table.kind, table.quantity)))
-    place = np.arange(len(quantities))[::-1]
+    # A gap between the kinds.
+    gaps = np.cumsum([0, *(a[0] != b[0] for a, b in pairwise(quantities))])
+    place = -(np.arange(len(quantities)) + gaps).astype(float)
     with panels(1, 1, height=0.6 + 0.26 * len(quantities)) as (figure, grid):
         axes = grid[0][0]
         for practice, shift in ((RIGID, 0.17), (STATIC, -0.17)):
@@ -184,6 +201,7 @@ def practice_errors(practices: Practices) -> str:
         axes.set_yticks(place, [q for _, q in quantities])
         axes.grid(axis="y", visible=False)
         axes.axvline(0.0, color=INK, linewidth=0.8)
+        axes.set_ylim(place[-1] - 0.7, 0.7)
         axes.set_title("Peak against that of the hybrid process, %")
         legend(figure, axes)
         return svg(figure, "errors of the practices")

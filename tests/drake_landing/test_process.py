@@ -14,6 +14,7 @@ from drake_landing.case import Airframe, Case
 from drake_landing.cases_io import load_case, parse_case
 from drake_landing.comparison import COLUMNS
 from drake_landing.inputs import prepare_aircraft
+from drake_landing.parts.pictures import can_draw
 from drake_landing.process import ProcessResult, run_case
 from drake_landing.progress import Silent
 from drake_landing.summary import key_figures
@@ -96,7 +97,9 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
     assert {path.name for path in folder.iterdir()} == {
         *("results.h5", "report.html", "landing.html", "landing_sol109.bdf"),
         *("comparison.csv", "gears.csv", "attachment_loads.csv", "tyres.csv"),
-        "worst_elements.csv",
+        *("worst_elements.csv", "worst_stresses.csv", "section_loads.csv"),
+        *("section_roots.csv", "accelerations_equipment.csv", "stages.csv"),
+        "pictures",
         *("struts.csv", "accelerations_multibody.csv", "accelerations_transient.csv"),
     }
     with h5py.File(folder / "results.h5") as file:
@@ -109,8 +112,10 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
 def test_report_is_self_contained(result: ProcessResult, folder: Path) -> None:
     page = (folder / "report.html").read_text()
     assert "<script" not in page
-    assert 'src="' not in page
-    assert page.count("<svg") == 5 + len(result.response)
+    assert all(part.startswith("data:") for part in page.split('src="')[1:])
+    # Beams: right, left and length, of which left is left out; two pictures each.
+    parts = 1 + 2 * 2 + len(result.response)
+    assert page.count("<svg") == 5 + len(result.response) + parts
     for figure, value in key_figures(result):
         assert figure in page
         assert value.split(" (")[0] in page
@@ -126,9 +131,36 @@ def test_replay_holds_a_recording(folder: Path, result: ProcessResult) -> None:
 
 
 def test_progress_tells_every_stage(stages: Stages, result: ProcessResult) -> None:
-    assert len(stages.texts) == 6
-    assert list(result.seconds) == stages.texts
+    told = [text.split(" (")[0] for text in stages.texts]
+    # Parts of the transient are booked apart.
+    booked = {name for name in result.seconds if name not in told}
+    assert set(told) | booked == set(result.seconds)
+    assert booked == {
+        *("direct transient: factor", "stresses, section loads"),
+        "extremes of all results",
+    }
+    table = result.stages.table()
+    assert table["share"].iloc[:-1].sum() == pytest.approx(1.0)
+    assert table["memory_gb"].is_monotonic_increasing
     assert max(stages.shares) == pytest.approx(1)
+
+
+def test_practices_and_a_page_without_pictures(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("DRAKE_LANDING_PICTURES", "off")
+    can_draw.cache_clear()
+    case = variant(("duration: 0.4", "duration: 0.1"), ("step: 5.0e-4", "step: 1.0e-3"))
+    done = run_case(case, tmp_path, practices=True)
+    can_draw.cache_clear()
+    assert done.practices is not None
+    table = pd.read_csv(tmp_path / "practices.csv")
+    assert set(table.kind) == {"acceleration", "section load", "stress"}
+    assert table.groupby(["kind", "quantity"]).practice.nunique().eq(3).all()
+    page = (tmp_path / "report.html").read_text()
+    assert "Three practices" in page
+    assert "cannot draw off-screen" in page
+    assert "<img" not in page
 
 
 def test_five_key_figures(result: ProcessResult) -> None:

@@ -8,6 +8,8 @@ import pandas as pd
 import pytest
 
 from drake_landing.history import ATTACHMENT, STRUT, TYRE, LandingHistory, gear_peaks
+from drake_landing.parts.places import Places
+from drake_landing.parts.watch import CaseFound, PartsFound
 from drake_landing.results import (
     write_aside,
     write_csv,
@@ -78,6 +80,25 @@ def test_gear_peaks_sum_the_wheels_and_keep_the_sign(history: LandingHistory) ->
     assert peaks.loc[("main", "attachment_fz"), "time"] == pytest.approx(0.5)
 
 
+def parts() -> PartsFound:
+    """Of an airframe that is looked at nowhere."""
+    case = CaseFound(
+        sections={},
+        acceleration={7: np.ones((2, 3))},
+        stress=pd.DataFrame(
+            {"id": [1], **{key: [1.0] for key in ("equivalent", "time", "largest")}}
+        ).assign(smallest=-1.0),
+    )
+    return PartsFound(
+        time=np.arange(2.0),
+        cuts={},
+        places=Places(equipment={}),
+        cases=(case,),
+        worst={},
+        imbalance=(0.0, 0.0),
+    )
+
+
 def test_results_file_reads_back(
     tmp_path: Path, history: LandingHistory, body: ModalBody
 ) -> None:
@@ -93,12 +114,16 @@ def test_results_file_reads_back(
         envelopes=(),
         comparison=comparison,
         gears=gear_peaks("r", history),
+        parts=parts(),
     )
     with h5py.File(path) as file:
         assert file.attrs["case"] == "name: x\n"
         assert "drake" in file["versions"].attrs
+        assert file["parts/acceleration/7"].shape == (2, 3)
+        assert file["parts/stress/smallest"][:].tolist() == [-1.0]
         stroke = file["multibody/strut/main/value"]
         assert stroke.attrs["units"].tolist() == ["m", "m/s", "N"]
+        assert set(file["multibody/energy/value"].attrs["units"]) == {"J"}
         assert stroke[:] == pytest.approx(history.strut["main"].to_numpy())
         assert file["attachment_loads/load"].shape == (11, 2, 6)
         assert file["comparison/point"].asstr()[:].tolist() == ["tail"]
@@ -127,5 +152,5 @@ def test_csv_tables_read_back(tmp_path: Path, history: LandingHistory) -> None:
     assert read["main_left_vertical"].to_numpy() == pytest.approx(
         history.tyre["main_left"]["vertical"].to_numpy()
     )
-    write_csv(tmp_path / "t.csv", pd.DataFrame({"a": [np.nan, 1 / 3]}))
-    assert (tmp_path / "t.csv").read_text() == 'a\n""\n0.333333333\n'
+    write_csv(tmp_path / "t.csv", pd.DataFrame({"a": [np.nan, 1 / 3, -0.0]}))
+    assert (tmp_path / "t.csv").read_text() == 'a\n""\n0.333333333\n0\n'
