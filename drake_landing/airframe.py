@@ -6,7 +6,7 @@ its rigid motions: mean axes.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,7 +21,7 @@ from drake_landing.inputs import Aircraft
 from drake_landing.progress import Reporter, Silent
 from drake_landing.scenario import Scenario
 from drake_landing.selection import Candidates, select_modes
-from drake_landing.skeleton import Skeleton, element_edges
+from drake_landing.skeleton import Skeleton, element_edges, element_faces
 from drake_landing.transient_deck import model_selections
 from fem.errors import InputError
 from fem.points import Points
@@ -77,17 +77,18 @@ class AirframeModel:
 
     @cached_property
     def skeleton(self) -> Skeleton:
-        """The airframe as lines, with the modes of the body."""
+        """The airframe as lines and skin, with the modes of the body."""
         points = self.structure.points
         edges = element_edges(self.structure.deck.cards, points.grid_id)
         plain = Skeleton(
             p=points.xyz @ self.R_AB.T,
             shape=np.zeros((len(points.grid_id), 3, 0)),
             edges=edges,
+            faces=element_faces(self.structure.deck.cards, points.grid_id),
         )
         rows, thinned = plain.thinned(_MOST_LINES)
         shape = _shapes(self.structure, points.grid_id[rows], self.basis, self.R_AB)
-        return Skeleton(p=thinned.p, shape=shape[:, :3], edges=thinned.edges)
+        return replace(thinned, shape=shape[:, :3])
 
 
 def load_airframe(
@@ -125,7 +126,9 @@ def load_airframe(
     if airframe.select.by_relevance:
         if scenario is None:
             raise ValueError(f"select '{airframe.select}' needs a scenario")
-        candidates = Candidates.of(structure, basis, airframe, aircraft, scenario)
+        candidates = Candidates.of(
+            structure, basis, airframe, aircraft, scenario, cache
+        )
         basis = select_modes(candidates, airframe.select)
     if airframe.residual_vectors:
         basis = with_residual_vectors(structure, basis, aircraft.attachment_nodes)

@@ -23,13 +23,14 @@ from pydantic import (
 )
 
 from drake_landing.gear import AnyGear
-from drake_landing.places import Places
 from drake_landing.parts.settings import Parts
+from drake_landing.places import Places
 from drake_landing.scenario import Scenario as Scenario
 from drake_landing.section import Section, number
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 Model = Literal["con", "pre", "full"]
+UnitSystem = Literal["SI", "mm-t-N", "in-lbf"]
 Basis = Literal["full-modes", "craig-bampton", "guyan"]
 _SELECTION = (
     r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz|relevance\s+(\d+)"
@@ -151,7 +152,12 @@ class Airframe(Section):
     )
     deck: Path | None = Field(
         default=None,
-        description="Nastran bulk-data file, SI units, relative to the case file",
+        description="Nastran bulk-data file, relative to the case file",
+    )
+    units: UnitSystem = Field(
+        default="SI",
+        description="units of the deck: SI (m, kg, N), mm-t-N, or in-lbf (mass in "
+        "lbf s²/in); everything else in a case, gears included, is SI",
     )
     ignore: tuple[str, ...] = Field(
         default=(),
@@ -214,6 +220,11 @@ class Airframe(Section):
         if sum(given) != 1:
             raise ValueError(
                 "give one of `model` (con, pre, full), `deck` (a file) or `matrices`"
+            )
+        if self.units != "SI" and self.deck is None:
+            raise ValueError(
+                f"units: found {self.units}, expected SI: built-in models and matrices "
+                "are in SI; other units are for a deck"
             )
         if self.fixed_interface_modes.by_relevance:
             raise ValueError(

@@ -17,6 +17,7 @@ from drake_landing.airframe import check_nodes, modal_body
 from drake_landing.axes import rotation_AB
 from drake_landing.basis import Basis
 from drake_landing.case import Case
+from drake_landing.deck_units import check_units
 from drake_landing.free_flight import check_free_flight, check_mass
 from drake_landing.gear import LandingGear
 from drake_landing.gear_checks import check_gears
@@ -59,6 +60,7 @@ def explain(case: Case, out: Path, *, thorough: bool = False) -> str:
         structure = aircraft.structure()
         check_nodes(structure, aircraft)
         check_mass(structure)
+        check_units(structure, aircraft)
         remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
         cost = None
         if thorough or structure.size <= _AT_ONCE:

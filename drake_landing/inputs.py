@@ -10,6 +10,7 @@ from drake_landing.gear import LandingGear
 from drake_landing.scenario import Lift, Scenario
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
+from fem.deck.units import in_si, units_of
 from fem.errors import InputError, nearest
 from fem.structure import Structure
 
@@ -26,6 +27,7 @@ class Aircraft:
         monitoring: point -> grid id.
         interface: grids that a reduction keeps, beside attachment and monitoring.
         scenario: of the case, with the nodes that carry the lift.
+        units: of the deck; what `structure` gives is SI.
         notices: what the user should know.
         read: how the file becomes a deck; matrices come with all their digits.
     """
@@ -37,6 +39,7 @@ class Aircraft:
     monitoring: Mapping[str, int]
     scenario: Scenario
     interface: tuple[int, ...] = ()
+    units: str = "SI"
     notices: tuple[str, ...] = ()
     read: Callable[[Path], Deck] = read_deck
 
@@ -86,7 +89,9 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         InputError: the deck is not there, or the built-in model is unknown.
     """
     airframe = case.airframe
-    read: Callable[[Path], Deck] = partial(read_deck, ignore=airframe.ignore)
+    read: Callable[[Path], Deck] = partial(
+        _read, ignore=airframe.ignore, units=airframe.units
+    )
     if airframe.model is None:
         deck = airframe.deck
         if airframe.matrices is not None:
@@ -98,6 +103,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             name=deck.stem,
             topology=airframe.topology or "",
             deck=deck,
+            units=airframe.units,
             read=read,
             gears=tuple(case.gears),
             monitoring=airframe.monitoring,
@@ -119,6 +125,11 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         scenario=_with_lift_nodes(case.scenario, tuple(sorted({*wing[0], *wing[1]}))),
         interface=tuple(sorted({*model.interface, *airframe.interface})),
     )
+
+
+def _read(path: Path, ignore: tuple[str, ...], units: str) -> Deck:
+    """A deck in SI."""
+    return in_si(read_deck(path, ignore=ignore), units_of(units))
 
 
 def _not_a_file(deck: Path | None) -> str:
