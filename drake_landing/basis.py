@@ -167,27 +167,63 @@ def with_residual_vectors(
         basis: its modes.
         nodes: grids whose unit forces and moments are to be answered statically right.
     """
-    modes = Modes(
-        frequency_hz=np.concatenate([np.zeros(_RIGID), basis.frequency_hz]),
-        shape=np.hstack([basis.rigid_modes(structure.mass), basis.shape]),
-        rigid=_RIGID,
-        sturm=(),
-    )
-    patterns = structure.operator(sorted(set(nodes)), frame="basic").T
-    more = residual_vectors(structure.stiffness, structure.mass, modes, patterns)
-    added = more.frequency_hz[modes.count :]
-    if not len(added):
+    added = residual_basis(structure, basis, nodes)
+    if not len(added.frequency_hz):
         return basis
     notice = (
-        f"{len(added)} residual vectors answer at {added.min():.0f} to "
-        f"{added.max():.0f} Hz"
+        f"{len(added.frequency_hz)} residual vectors answer at "
+        f"{added.frequency_hz.min():.0f} to {added.frequency_hz.max():.0f} Hz"
     )
     return Basis(
-        frequency_hz=more.frequency_hz[_RIGID:],
-        shape=np.ascontiguousarray(more.shape[:, _RIGID:]),
+        frequency_hz=np.concatenate([basis.frequency_hz, added.frequency_hz]),
+        shape=np.hstack([basis.shape, added.shape]),
         rigid=basis.rigid,
         freedoms=basis.freedoms,
         notices=(*basis.notices, notice),
+    )
+
+
+def residual_basis(
+    structure: Structure,
+    basis: Basis,
+    nodes: Sequence[int],
+    *,
+    cache: Cache | None = None,
+) -> Basis:
+    """The attachment modes that a basis lacks, orthogonal to it.
+
+    Args:
+        structure: the full model.
+        basis: its modes.
+        nodes: grids with unit forces and moments.
+        cache: where those of the same modes may be found.
+    """
+    grids = sorted(set(nodes))
+    patterns = structure.operator(grids, frame="basic").T
+
+    def solve() -> Arrays:
+        modes = Modes(
+            frequency_hz=np.concatenate([np.zeros(_RIGID), basis.frequency_hz]),
+            shape=np.hstack([basis.rigid_modes(structure.mass), basis.shape]),
+            rigid=_RIGID,
+            sturm=(),
+        )
+        more = residual_vectors(structure.stiffness, structure.mass, modes, patterns)
+        new = slice(modes.count, None)
+        return {
+            "frequency_hz": more.frequency_hz[new],
+            "shape": np.ascontiguousarray(more.shape[:, new]),
+        }
+
+    key = content_key(
+        *(structure.stiffness, structure.mass, basis.frequency_hz, patterns), "residual"
+    )
+    found = (cache or Cache(None)).arrays("residual", key, solve)
+    return Basis(
+        frequency_hz=found["frequency_hz"],
+        shape=found["shape"],
+        rigid=basis.rigid,
+        freedoms=basis.freedoms,
     )
 
 

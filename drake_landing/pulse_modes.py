@@ -25,35 +25,46 @@ Float64 = npt.NDArray[np.float64]
 
 # Hz: fine where modes are lightly damped, coarser above.
 _COMB = np.concatenate([np.linspace(1.0, 60.0, 90), np.linspace(61.5, 200.0, 90)])
-# Kinds of load: drag and side force with the moments, vertical force, moments alone.
-_KINDS = ((0, 1, 3, 4, 5), (2,), (3, 4, 5))
+# Kinds of load: drag and side force with their moments, vertical force, moments alone.
+_KINDS = ((0, 4, 5), (1, 3, 5), (2,), (3, 4, 5))
 
 
-def pulse_modes(
-    model: ModalModel, pulses: Sequence[GearPulses], count: int
-) -> tuple[Float64, Float64]:
-    """The most energetic directions of the candidates' motion under gear pulses.
+def pulse_directions(model: ModalModel, pulses: Sequence[GearPulses]) -> Float64:
+    """Directions of the candidates' motion under gear pulses, most energetic first.
 
     Args:
-        model: rigid-body modes and candidates.
+        model: rigid-body modes and n candidates.
         pulses: of all gears.
-        count: of shapes; fewer come back where there are not so many candidates.
 
     Returns:
-        Frequencies (k,), Hz, ascending; and mix (n, k), orthonormal columns: shapes are
-        candidates (elastic ones of the model) times mix.
+        (n, n) orthonormal columns: combinations of the candidates.
     """
     elastic = model.elastic
     kinds = [_only(pulse, kind) for pulse in pulses for kind in _KINDS]
+    kinds = [kind for kind in kinds if kind.load.any()]
     in_time = np.vstack([modal_pulse(model, [kind])[:, elastic] for kind in kinds])
     at_comb = np.vstack([_comb_response(model, kind) for kind in kinds])
     samples = np.vstack([in_time / _size(in_time), at_comb / _size(at_comb)])
     # Right singular vectors from the small Gram matrix; few are wanted.
     _, vectors = np.linalg.eigh(samples.T @ samples)
-    mix = vectors[:, ::-1][:, :count]
-    omega2 = (2.0 * np.pi * model.frequency_hz[elastic]) ** 2
-    values, turn = np.linalg.eigh(mix.T @ (omega2[:, None] * mix))
-    return np.sqrt(values) / (2.0 * np.pi), np.asarray(mix @ turn, dtype=np.float64)
+    return np.asarray(vectors[:, ::-1], dtype=np.float64)
+
+
+def galerkin_modes(model: ModalModel, directions: Float64) -> tuple[Float64, Float64]:
+    """The modes of a model that moves in some directions only.
+
+    Args:
+        model: rigid-body modes and n candidates.
+        directions: (n, k) orthonormal columns.
+
+    Returns:
+        Frequencies (k,), Hz, ascending; and mix (n, k), orthonormal columns: shapes are
+        candidates (elastic ones of the model) times mix.
+    """
+    omega2 = (2.0 * np.pi * model.frequency_hz[model.elastic]) ** 2
+    values, turn = np.linalg.eigh(directions.T @ (omega2[:, None] * directions))
+    mix = np.asarray(directions @ turn, dtype=np.float64)
+    return np.sqrt(values) / (2.0 * np.pi), mix
 
 
 def _size(samples: Float64) -> float:

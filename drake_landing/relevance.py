@@ -59,6 +59,23 @@ class ModalModel:
             attachment={n: shape[:, modes] for n, shape in self.attachment.items()},
         )
 
+    def with_more(self, other: "ModalModel") -> "ModalModel":
+        """These modes and the elastic ones of another model of the same structure."""
+        more = other.elastic
+
+        def joined(a: Float64, b: Float64) -> Float64:
+            return np.concatenate([a, b[..., more]], axis=-1)
+
+        return ModalModel(
+            frequency_hz=joined(self.frequency_hz, other.frequency_hz),
+            damping=joined(self.damping, other.damping),
+            monitor=joined(self.monitor, other.monitor),
+            attachment={
+                node: joined(shape, other.attachment[node])
+                for node, shape in self.attachment.items()
+            },
+        )
+
     def mixed(self, frequency_hz: Float64, mix: Float64) -> "ModalModel":
         """Rigid-body modes and combinations of the elastic ones.
 

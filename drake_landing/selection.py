@@ -1,15 +1,17 @@
 """Modes of a basis chosen or made for gear pulses, and the error to be expected."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from drake_landing.axes import gear_in_A, rotation_AB
-from drake_landing.basis import Basis
+from drake_landing.basis import Basis, residual_basis
+from drake_landing.cache import Cache
 from drake_landing.case import Airframe, Selection
 from drake_landing.inputs import Aircraft
-from drake_landing.pulse_modes import pulse_modes
+from drake_landing.pulse_modes import galerkin_modes, pulse_directions
 from drake_landing.pulses import GearPulses, touchdown_pulses
 from drake_landing.relevance import ModalModel, Relevance, response
 from drake_landing.scenario import Scenario
@@ -19,8 +21,12 @@ Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
 _RIGID = 6
-# Pulse modes answer their own pulses too well: others tell what error to expect.
-_OTHER_SINK, _OTHER_SPEED = 0.8, 0.9
+# Factors on sink rate and speed. Shapes that are made for pulses answer these too well:
+# others tell what error to expect.
+_TRIALS = ((0.8, 0.9), (1.2, 1.1))
+# Directions that shapes are picked from, per shape: 1 combines best where nearly all of
+# the motion is wanted, more where only what the monitoring points feel is.
+_WAYS = (1.0, 1.15, 1.3, 1.45)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,25 +34,47 @@ class Choice:
     """Elastic modes of a multibody model.
 
     Attributes:
-        basis: their shapes.
+        source: the candidates.
+        modes: (k,) which of them; or
+        mix: (n, k) how they are combined, orthonormal columns.
         model: rigid-body modes and these at the nodes.
-        expected: (p,) truncation error to be expected at the monitoring points: rms of
-            what is missing over that of the acceleration vector.
+        expected: (p,) error to be expected at the monitoring points because modes are
+            left out or a reduction lies before: rms of what is missing over that of
+            the acceleration vector.
     """
 
-    basis: Basis
+    source: Basis = field(repr=False)
+    modes: Int64 | None = None
+    mix: Float64 | None = field(default=None, repr=False)
     model: ModalModel
     expected: Float64
 
     @property
+    def frequency_hz(self) -> Float64:
+        """(k,)"""
+        return self.model.frequency_hz[self.model.elastic]
+
+    @property
+    def basis(self) -> Basis:
+        """Shapes of the whole structure, made anew each time: they are large."""
+        if self.mix is None:
+            assert self.modes is not None
+            return self.source.chosen(self.modes)
+        return replace(
+            self.source,
+            frequency_hz=self.frequency_hz,
+            shape=np.ascontiguousarray(self.source.shape @ self.mix),
+        )
+
+    @property
     def count(self) -> int:
         """Number of elastic modes."""
-        return len(self.basis.frequency_hz)
+        return len(self.frequency_hz)
 
     @property
     def highest_hz(self) -> float:
         """0 for a rigid airframe."""
-        return float(self.basis.frequency_hz.max(initial=0.0))
+        return float(self.frequency_hz.max(initial=0.0))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,15 +84,18 @@ class Candidates:
     Attributes:
         basis: elastic modes.
         model: rigid-body modes and all of these.
+        reference: what errors are expected against: the full model's candidates and the
+            static residual vectors of what lies above them.
         pulses: expected loads of the gears.
-        other_pulses: of another landing.
+        trials: those of other landings, which tell what error to expect.
         relevance: order of the modes; positions count the rigid-body modes first.
     """
 
     basis: Basis
     model: ModalModel
+    reference: ModalModel
     pulses: list[GearPulses]
-    other_pulses: list[GearPulses]
+    trials: tuple[list[GearPulses], ...]
     relevance: Relevance
 
     @classmethod
@@ -75,6 +106,7 @@ class Candidates:
         airframe: Airframe,
         aircraft: Aircraft,
         scenario: Scenario,
+        cache: Cache | None = None,
     ) -> "Candidates":
         """Of a basis of a structure.
 
@@ -84,34 +116,73 @@ class Candidates:
             airframe: its axes.
             aircraft: gears and monitoring points.
             scenario: sink rate, speeds, angles.
+            cache: where residual vectors may be found.
         """
         model = modal_model(structure, basis, aircraft)
-        pulses = expected_pulses(structure, airframe, aircraft, scenario)
-        other = scenario.model_copy(
-            update={
-                "sink_rate": _OTHER_SINK * scenario.sink_rate,
-                "forward_speed": _OTHER_SPEED * scenario.forward_speed,
+
+        def pulses_of(sink: float, speed: float) -> list[GearPulses]:
+            other = {
+                "sink_rate": sink * scenario.sink_rate,
+                "forward_speed": speed * scenario.forward_speed,
             }
-        )
+            changed = scenario.model_copy(update=other)
+            return expected_pulses(structure, airframe, aircraft, changed)
+
+        pulses = pulses_of(1.0, 1.0)
+        above = residual_basis(structure, basis, aircraft.attachment_nodes, cache=cache)
         return cls(
             basis=basis,
             model=model,
+            reference=model.with_more(modal_model(structure, above, aircraft)),
             pulses=pulses,
-            other_pulses=expected_pulses(structure, airframe, aircraft, other),
+            trials=tuple(pulses_of(*factors) for factors in _TRIALS),
             relevance=Relevance.of(model, tuple(aircraft.monitoring), pulses),
+        )
+
+    def of_reduced(
+        self, structure: Structure, basis: Basis, aircraft: Aircraft
+    ) -> "Candidates":
+        """Modes of a reduced model under the same pulses, errors against these here.
+
+        Args:
+            structure: the full model.
+            basis: of the reduced one.
+            aircraft: gears and monitoring points.
+        """
+        model = modal_model(structure, basis, aircraft)
+        return replace(
+            self,
+            basis=basis,
+            model=model,
+            relevance=Relevance.of(model, self.relevance.points, self.pulses),
         )
 
     def choose(self, select: Selection) -> Choice:
         """The modes of a selection of any kind."""
         if select.kind == "pulses":
-            return self._made(int(select.value))
+            made = [self._made(int(select.value), way) for way in _WAYS]
+            return min(made, key=lambda choice: choice.expected.max())
         modes = self._picked(select)
-        basis = self.basis.chosen(modes - _RIGID)
-        every = np.concatenate([np.arange(_RIGID), modes])
+        model = self.model.of(np.concatenate([np.arange(_RIGID), modes]))
         return Choice(
-            basis=basis,
-            model=self.model.of(every),
-            expected=self.relevance.error(modes),
+            source=self.basis,
+            modes=modes - _RIGID,
+            model=model,
+            expected=self._expected(model),
+        )
+
+    def _made(self, count: int, way: float) -> Choice:
+        """Shapes combined for the pulses: of more than are wanted the most relevant."""
+        directions = self._directions[:, : round(way * count)]
+        frequency, mix = galerkin_modes(self.model, directions)
+        model = self.model.mixed(frequency, mix)
+        if len(frequency) > count:
+            points = self.relevance.points
+            modes = np.sort(Relevance.of(model, points, self.pulses).order[:count])
+            model = model.of(np.concatenate([np.arange(_RIGID), modes]))
+            mix = mix[:, modes - _RIGID]
+        return Choice(
+            source=self.basis, mix=mix, model=model, expected=self._expected(model)
         )
 
     def _picked(self, select: Selection) -> Int64:
@@ -129,18 +200,24 @@ class Candidates:
                 chosen = self.relevance.elastic
         return np.sort(chosen)
 
-    def _made(self, count: int) -> Choice:
-        frequency, mix = pulse_modes(self.model, self.pulses, count)
-        basis = replace(
-            self.basis,
-            frequency_hz=frequency,
-            shape=np.ascontiguousarray(self.basis.shape @ mix),
-        )
-        model = self.model.mixed(frequency, mix)
-        whole = response(self.model, self.other_pulses)
-        lost = response(model, self.other_pulses) - whole
-        expected = np.sqrt((lost**2).sum((0, 2)) / (whole**2).sum((0, 2)))
-        return Choice(basis=basis, model=model, expected=expected)
+    @cached_property
+    def _directions(self) -> Float64:
+        """(n, n) of the motion under the pulses, most energetic first."""
+        return pulse_directions(self.model, self.pulses)
+
+    @cached_property
+    def _felt(self) -> list[Float64]:
+        """(t, p, 3) accelerations of the reference in each trial."""
+        return [response(self.reference, pulses) for pulses in self.trials]
+
+    def _expected(self, model: ModalModel) -> Float64:
+        """(p,) root mean square over the trials of a model's error in each."""
+        errors = [
+            ((response(model, pulses) - whole) ** 2).sum((0, 2))
+            / (whole**2).sum((0, 2))
+            for pulses, whole in zip(self.trials, self._felt)
+        ]
+        return np.sqrt(np.mean(errors, axis=0))
 
 
 def expected_pulses(

@@ -4,6 +4,7 @@ Topologies that tie the gears to other nodes without changing stiffness or mass 
 same matrices: their modes are found in the cache, and one factorisation serves all.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -12,30 +13,40 @@ from drake_landing.airframe import check_nodes, modal_body
 from drake_landing.axes import rotation_AB
 from drake_landing.basis import elastic_basis
 from drake_landing.cache import Cache, content_key
-from drake_landing.case import Case
+from drake_landing.case import Basis, Case
 from drake_landing.inputs import Aircraft, prepare_aircraft
 from drake_landing.progress import Reporter
 from drake_landing.selection import Candidates, Choice
-from drake_landing.studies.plan import Plan
+from drake_landing.studies.plan import FULL_MODES, NAMES, Plan, RunName
 from fem.structure import Structure
 from systems.modal_body import ModalBody
 
 
 @dataclass(frozen=True, kw_only=True)
 class StudyAirframe:
-    """A full model and its candidate modes.
+    """A full model, its candidate modes, and those of reduced ones.
 
     Attributes:
         case: shared by the runs.
         aircraft: deck, gears, nodes.
         structure: the full model.
-        candidates: modes and their order.
+        candidates: modes of the full model and their order.
+        reduced: basis -> modes of the model reduced to the interface.
     """
 
     case: Case
     aircraft: Aircraft
     structure: Structure
     candidates: Candidates
+    reduced: Mapping[Basis, Candidates]
+
+    def of_basis(self, basis: Basis) -> Candidates:
+        """Candidates of the full model or of a reduced one."""
+        return self.candidates if basis == FULL_MODES else self.reduced[basis]
+
+    def choose(self, name: RunName) -> Choice:
+        """The modes of a run."""
+        return self.of_basis(name.basis).choose(name.parsed)
 
     @cached_property
     def matrix_key(self) -> str:
@@ -73,18 +84,25 @@ def study_airframe(
     aircraft = prepare_aircraft(case, folder)
     structure = aircraft.structure()
     check_nodes(structure, aircraft)
-    basis = elastic_basis(
-        structure,
-        case.airframe,
-        list(aircraft.nodes),
-        lambda done, wanted: progress.share(done / max(wanted, 1), f"{done} modes"),
-        cache=cache,
+    nodes = list(aircraft.nodes)
+
+    def told(done: int, wanted: int) -> None:
+        progress.share(done / max(wanted, 1), f"{done} modes")
+
+    basis = elastic_basis(structure, case.airframe, nodes, told, cache=cache)
+    candidates = Candidates.of(
+        structure, basis, case.airframe, aircraft, case.scenario, cache
     )
+    reduced = {}
+    for name in plan.reductions:
+        progress.stage(f"{NAMES[name]} reduction to {len(nodes)} grids, its modes")
+        settings = case.airframe.model_copy(update={"basis": name})
+        basis = elastic_basis(structure, settings, nodes, cache=cache)
+        reduced[name] = candidates.of_reduced(structure, basis, aircraft)
     return StudyAirframe(
         case=case,
         aircraft=aircraft,
         structure=structure,
-        candidates=Candidates.of(
-            structure, basis, case.airframe, aircraft, case.scenario
-        ),
+        candidates=candidates,
+        reduced=reduced,
     )

@@ -2,9 +2,12 @@
 
 For one run with its attachment loads L on the grid of the transient, at one output:
 
-    multibody - direct transient = truncation + formulation + time integration + rest
+    multibody - direct transient =
+        truncation + reduction + formulation + time integration + rest
 
-    truncation        modal response with the run's modes less that with all candidates
+    truncation        modal response with the run's modes less that with all modes of
+                      its basis (below the limit of the candidates)
+    reduction         all modes of a reduced model less all candidates of the full one
     formulation       multibody less modal response with the same modes: finite
                       rotation, arms of the deformed structure, inertial coupling,
                       tolerance of the integrator, hand-over
@@ -14,10 +17,8 @@ For one run with its attachment loads L on the grid of the transient, at one out
                       transient: modes above the candidates
 
 All modal responses are linear, exact for loads that are linear between samples, with
-the same projected damping. Reduction is measured likewise: all modes of the reduced
-model below the limit of the candidates against the candidates. Feedback is how much the
-loads themselves change with the modes: full-model response under L less that under the
-loads of the reference run.
+the same projected damping. Feedback is how much the loads themselves change with the
+modes: full-model response under L less that under the loads of the reference run.
 """
 
 from dataclasses import dataclass
@@ -36,6 +37,7 @@ class Budget:
     """Parts of the difference, histories (t, p, 3), m/s²."""
 
     truncation: Float64
+    reduction: Float64
     formulation: Float64
     integration: Float64
     rest: Float64
@@ -43,11 +45,17 @@ class Budget:
     @property
     def total(self) -> Float64:
         """Multibody less direct transient."""
-        return self.truncation + self.formulation + self.integration + self.rest
+        return self.omitted + self.formulation
+
+    @property
+    def omitted(self) -> Float64:
+        """The linear model with the run's modes less the direct transient."""
+        return self.truncation + self.reduction + self.integration + self.rest
 
 
 def error_budget(
     model: ModalModel,
+    whole: ModalModel,
     chosen: ModalModel,
     loads: AttachmentLoads,
     multibody: Float64,
@@ -57,7 +65,8 @@ def error_budget(
     """Splits the difference of one run.
 
     Args:
-        model: rigid-body modes and all candidates.
+        model: rigid-body modes and all candidates of the full model.
+        whole: the same, or those of the reduced model that the run's modes are of.
         chosen: rigid-body modes and those of the run.
         loads: attachment loads on an even grid.
         multibody, transient: (t, p, 3) accelerations of the points of the model.
@@ -66,6 +75,7 @@ def error_budget(
     force = modal_forces(model, loads)
     exact = modal_accelerations(model.frequency_hz, model.damping, force, loads.step)
     every = at_points(model, exact)
+    of_basis = every if whole is model else exact_response(whole, loads)
     few = exact_response(chosen, loads)
     if scheme == "nastran":
         stepped = nastran_accelerations(model, force, loads.step)
@@ -73,7 +83,8 @@ def error_budget(
     else:
         scheme_all = every  # its error stays in the rest
     return Budget(
-        truncation=few - every,
+        truncation=few - of_basis,
+        reduction=of_basis - every,
         formulation=multibody - few,
         integration=every - scheme_all,
         rest=scheme_all - transient,

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from drake_landing.report.plots import (
     MULTIBODY,
@@ -14,9 +15,18 @@ from drake_landing.report.plots import (
     panels,
     svg,
 )
+from drake_landing.studies.plan import FULL_MODES, RunName
 
 if TYPE_CHECKING:
     from drake_landing.studies.study import Study, StudyRun
+
+_ORDERS = {  # order of a selection -> label, line, colour
+    "guyan": ("lowest modes, Guyan", "--", SERIES[1]),
+    "craig-bampton": ("lowest modes, Craig-Bampton", "--", SERIES[4]),
+    "lowest": ("lowest modes, full model", ":", SERIES[3]),
+    "relevance": ("most relevant modes", "-", SERIES[2]),
+    "pulses": ("combined for pulses", "-", SERIES[0]),
+}
 
 
 def accelerations(study: "Study", run: "StudyRun") -> str:
@@ -41,40 +51,49 @@ def accelerations(study: "Study", run: "StudyRun") -> str:
 
 
 def convergence(study: "Study") -> str:
-    """Error over the number of modes: lowest modes, and the most relevant ones."""
-    topologies = list(study.airframes)
-    with panels(1, len(topologies), height=3.4) as (figure, grid):
-        for axes, topology in zip(grid[0], topologies):
-            of_topology = study.convergence[study.convergence["topology"] == topology]
-            for color, point in zip(SERIES, study.plan.points):
-                one = of_topology[of_topology["point"] == point]
-                for order, style in (("lowest", ":"), ("relevance", "-")):
-                    rows = one[one["order"] == order]
-                    axes.plot(
-                        rows["modes"],
-                        rows["rms_error"],
-                        style,
-                        color=color,
-                        label=f"{point.replace('_', ' ')}, {order}",
-                    )
-                _mark_runs(axes, study, topology, point, color)
-            axes.set_yscale("log")
-            axes.set_xscale("log")
-            axes.set_ylim(2e-3, 2.0)
-            axes.axhline(0.01, color="#8a94a3", linewidth=0.8)
-            axes.yaxis.set_major_formatter("{x:.1%}")
-            axes.set_xticks([5, 10, 20, 50, 100, 200, 500])
-            axes.xaxis.set_major_formatter("{x:g}")
-            axes.xaxis.minorticks_off()
-            axes.set_title(f"rms difference, topology {topology}")
+    """Error over the number of modes, a panel for each point and topology."""
+    topologies, points = list(study.airframes), study.plan.points
+    columns = -(-len(points) // 2)
+    with panels(2 * len(topologies), columns, height=2.4) as (figure, grid):
+        places = iter([axes for row in grid for axes in row])
+        for topology in topologies:
+            for point in points:
+                axes = next(places)
+                table = study.convergence
+                of_point = table[
+                    (table["topology"] == topology) & (table["point"] == point)
+                ]
+                for order, (label, style, color) in _ORDERS.items():
+                    rows = of_point[of_point["order"] == order]
+                    if len(rows):
+                        axes.plot(
+                            rows["modes"],
+                            rows["rms_error"],
+                            style,
+                            color=color,
+                            label=label,
+                        )
+                _mark_runs(axes, study, topology, point)
+                axes.set_yscale("log")
+                axes.set_xscale("log")
+                axes.set_ylim(1e-3, 2.0)
+                axes.axhline(0.01, color="#8a94a3", linewidth=0.8)
+                axes.yaxis.set_major_formatter("{x:.1%}")
+                axes.set_xticks([5, 10, 20, 50, 100, 200, 500])
+                axes.xaxis.set_major_formatter("{x:g}")
+                axes.xaxis.minorticks_off()
+                where = f", topology {topology}" if len(topologies) > 1 else ""
+                axes.set_title(point.replace("_", " ") + where)
+                axes.set_ylabel("rms difference")
+        for axes in grid[-1]:
             axes.set_xlabel("number of elastic modes")
         handles, labels = grid[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper center", ncols=4)
+        figure.legend(handles, labels, loc="outside upper center", ncols=3)
         return svg(figure, "convergence over the number of modes")
 
 
-def _mark_runs(axes, study: "Study", topology: str, point: str, color: str) -> None:
-    """Whole runs, multibody against direct transient, as dots."""
+def _mark_runs(axes: Axes, study: "Study", topology: str, point: str) -> None:
+    """Whole runs, multibody against direct transient."""
     table = study.measures
     rows = table[
         (table["topology"] == topology)
@@ -82,13 +101,14 @@ def _mark_runs(axes, study: "Study", topology: str, point: str, color: str) -> N
         & (table["axis"] == "z")
         & (table["modes"] > 0)
     ]
-    marks = {"count": "o", "below": "o", "relevance": "o", "pulses": "D"}
-    for kind, mark in marks.items():
-        some = rows[rows["selection"].str.startswith(kind)]
-        fill = "none" if kind in ("count", "below") else color
-        axes.plot(
-            some["modes"], some["rms_error"], mark, color=color, markerfacecolor=fill
-        )
+    for row in rows.to_dict("records"):
+        name = RunName(topology=topology, selection=str(row["selection"]))
+        kind = name.parsed.kind
+        order = kind if kind in _ORDERS else "lowest"
+        if name.basis != FULL_MODES:
+            order = name.basis
+        color = _ORDERS[order][2]
+        axes.plot(row["modes"], row["rms_error"], "o", color=color, markersize=4.5)
 
 
 def budget_bars(study: "Study") -> str:
@@ -104,7 +124,7 @@ def budget_bars(study: "Study") -> str:
             at = np.arange(len(table))
             for k, (part, color) in enumerate(zip((*BUDGET, "feedback"), SERIES)):
                 axes.bar(
-                    at + 0.16 * (k - 2), table[part], 0.15, color=color, label=part
+                    at + 0.14 * (k - 2.5), table[part], 0.13, color=color, label=part
                 )
             axes.set_yscale("log")
             axes.set_ylim(1e-4, 1.0)
@@ -114,11 +134,11 @@ def budget_bars(study: "Study") -> str:
             axes.tick_params(axis="x", labelsize=7, labelbottom=True)
             axes.grid(axis="x", visible=False)
         handles, labels = places[0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside upper right", ncols=5)
+        figure.legend(handles, labels, loc="outside upper right", ncols=6)
         return svg(figure, "error budget")
 
 
 def _short(row: dict) -> str:
-    words = {"relevance": "rel.", "pulses": "pulse "}
+    words = {"relevance": "rel.", "pulses": "pulse ", "guyan": "Guyan "}
     kind = words.get(str(row["selection"]).split()[0], "")
     return f"T{row['topology'][:1]}\n{kind}{row['modes']}"

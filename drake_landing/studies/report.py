@@ -15,6 +15,7 @@ from drake_landing.studies.findings import (
     findings,
     key_figures,
 )
+from drake_landing.studies.plan import NAMES
 
 if TYPE_CHECKING:
     from drake_landing.studies.study import Study, StudyRun
@@ -44,12 +45,13 @@ _BUDGET = {
     "point": "point",
     "total": "multibody against FE",
     "truncation": "truncation",
+    "reduction": "reduction",
     "formulation": "formulation",
     "integration": "time integration",
     "rest": "modes above candidates",
     "feedback": "feedback",
-    "expected": "truncation expected beforehand",
-    "truncated": "truncation found",
+    "expected": "omitted, expected beforehand",
+    "truncated": "omitted, found",
 }
 
 
@@ -98,10 +100,10 @@ def _sections(study: "Study") -> Iterator[Section]:
     yield Section(
         id="convergence",
         title="Convergence",
-        text="Lines: modal truncation alone, by frequency (dotted) and by relevance "
-        "(solid), against all candidates. Dots: whole runs, multibody against direct "
-        "transient; filled where relevance chose the modes, diamonds where they are "
-        "combined for the gears' pulses. The grey line is 1 %.",
+        text="Lines: linear modes against the direct transient under the same loads: "
+        "lowest modes of the reduced model (the paper's practice) and of the full one, "
+        "those of highest relevance, shapes combined for the gears' pulses. Marks: "
+        "whole runs, multibody against direct transient. The grey line is 1 %.",
         blocks=[Block(svg=figures.convergence(study))],
     )
     for topology in study.plan.topologies:
@@ -110,23 +112,14 @@ def _sections(study: "Study") -> Iterator[Section]:
             title=f"Accelerations, topology {topology}",
             text="Vertical, increments to steady flight.",
             blocks=[
-                Block(
-                    svg=figures.accelerations(study, run),
-                    caption=f"{run.name.words}"
-                    + (
-                        f", up to {run.choice.highest_hz:.1f} Hz"
-                        if run.choice.count
-                        else ""
-                    ),
-                )
+                Block(svg=figures.accelerations(study, run), caption=_caption(run))
                 for run in study.runs
                 if run.name.topology == topology
             ],
         )
     yield _measures(study)
     yield _budget(study)
-    if len(study.reductions):
-        yield _reductions(study)
+    yield _bases(study)
     yield _costs(study)
 
 
@@ -160,12 +153,14 @@ def _budget(study: "Study") -> Section:
         id="budget",
         title="Error budget",
         text="Each part measured by itself, rms over rms of the transient, vertical. "
-        "Truncation: modes left out. Formulation: finite rotation and deformed arms of "
+        "Truncation: modes of the basis left out. Reduction: all modes of the reduced "
+        "model against the full one. Formulation: finite rotation and deformed arms of "
         "the multibody model against linear modes. Time integration: the scheme of the "
         "transient against the exact response. Feedback: how much the response of the "
         "full model changes because the gear loads depend on the modes, against the "
         "run with the best modes; it does not enter the difference. The last two "
-        "columns are of the acceleration vector. " + estimate_quality(study),
+        "columns are all that the linear modes lack, of the acceleration vector. "
+        + estimate_quality(study),
         blocks=[
             Block(svg=figures.budget_bars(study)),
             table_block(shown, _BUDGET, dict.fromkeys(parts, ".2%")),
@@ -173,25 +168,46 @@ def _budget(study: "Study") -> Section:
     )
 
 
-def _reductions(study: "Study") -> Section:
-    table = study.reductions.pivot_table(
-        index=["basis", "freedoms", "modes", "axis"],
+def _bases(study: "Study") -> Section:
+    spectra = study.spectra.assign(basis=study.spectra["basis"].map(NAMES))
+    table = study.bases.assign(basis=study.bases["basis"].map(NAMES)).pivot_table(
+        index=["basis", "set", "modes", "highest_hz"],
         columns="point",
         values="rms_error",
-    ).reset_index()
+        sort=False,
+    )
     points = [p for p in study.plan.points if p in table.columns]
-    heads = {"basis": "basis", "freedoms": "freedoms", "modes": "modes", "axis": "axis"}
     return Section(
-        id="reductions",
-        title="Reduction",
-        text="All modes of the reduced model below the limit of the candidates against "
-        "all candidates of the full model, same loads, no mode left out.",
+        id="bases",
+        title="Bases",
+        text="Modes of the model reduced to its interface beside those of the full "
+        "model (same: modes of the full model that the reduced one has in nearly the "
+        "same shape), and linear responses against the direct transient, vertical "
+        "acceleration, loads of one run.",
         blocks=[
             table_block(
-                table,
-                heads | {p: p.replace("_", " ") for p in points},
-                dict.fromkeys(points, ".2%"),
-            )
+                spectra,
+                {
+                    "basis": "basis",
+                    "freedoms": "freedoms",
+                    "below_hz": "below Hz",
+                    "modes": "modes",
+                    "same": "same",
+                    "too_high": "frequency too high by, at most",
+                },
+                {"below_hz": "g", "too_high": ".1%"},
+            ),
+            table_block(
+                table.reset_index(),
+                {
+                    "basis": "basis",
+                    "set": "set",
+                    "modes": "modes",
+                    "highest_hz": "up to Hz",
+                    **{p: p.replace("_", " ") for p in points},
+                },
+                {"highest_hz": ".0f"} | dict.fromkeys(points, ".2%"),
+            ),
         ],
     )
 

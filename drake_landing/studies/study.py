@@ -15,10 +15,10 @@ from drake_landing.progress import Reporter, Silent
 from drake_landing.results import write_csv
 from drake_landing.selection import Choice
 from drake_landing.studies.airframes import StudyAirframe, study_airframe
+from drake_landing.studies.bases import bases_of, bases_table, spectrum_table
 from drake_landing.studies.budget import Budget, error_budget
 from drake_landing.studies.landings import LandingResult, LandingTask, fly_all
 from drake_landing.studies.plan import Plan, RunName
-from drake_landing.studies.reductions import reduction_errors
 from drake_landing.studies.tables import budget_table, convergence_table, study_table
 from drake_landing.studies.transients import TransientTask, respond_all
 
@@ -62,7 +62,8 @@ class Study:
         measures: as `comparison`, with times of peaks and Sprague-Geers parts.
         budgets: error budget, a row per run and point, vertical.
         convergence: modal truncation error over the number of modes.
-        reductions: error of reduced bases.
+        spectra: modes of bases beside those of the full model.
+        bases: linear response of bases, also with residual vectors.
         gears: table of `gears.csv`.
         seconds: stage -> wall time.
     """
@@ -75,7 +76,8 @@ class Study:
     measures: pd.DataFrame
     budgets: pd.DataFrame
     convergence: pd.DataFrame
-    reductions: pd.DataFrame
+    spectra: pd.DataFrame
+    bases: pd.DataFrame
     gears: pd.DataFrame
     seconds: Mapping[str, float]
 
@@ -114,12 +116,8 @@ def run_study(
         )
     lap("decks, matrices, candidate modes")
 
-    names = [
-        RunName(topology=t, selection=s)
-        for t in plan.topologies
-        for s in plan.selections
-    ]
-    chosen = [airframes[n.topology].candidates.choose(n.parsed) for n in names]
+    names = plan.runs
+    chosen = [airframes[n.topology].choose(n) for n in names]
     tell.stage(f"{len(names)} landings in the multibody model")
     landings = fly_all(
         [
@@ -153,7 +151,9 @@ def run_study(
         for name, choice, landing, response in zip(names, chosen, landings, responses)
     )
     points = tuple(next(iter(airframes.values())).aircraft.monitoring)
-    reductions = reduction_errors(plan, airframes, runs, cache)
+    lap("budgets and tables")
+    tell.stage("bases and convergence")
+    bases = bases_of(plan, airframes, cache)
     study = Study(
         plan=plan,
         airframes=airframes,
@@ -163,13 +163,14 @@ def run_study(
         measures=study_table(points, runs),
         budgets=budget_table(points, runs),
         convergence=convergence_table(airframes, runs),
-        reductions=reductions,
+        spectra=spectrum_table(airframes, bases),
+        bases=bases_table(plan, airframes, bases, runs),
         gears=pd.concat(
             [r.landing.gears.assign(run=str(r.name)) for r in runs], ignore_index=True
         )[["run", "gear", "quantity", "peak", "time"]],
         seconds=seconds,
     )
-    lap("budgets and tables")
+    lap("bases and convergence")
     tell.stage("writing tables and report")
     _write(study, out)
     return study
@@ -189,6 +190,7 @@ def _run(
         transient=response,
         budget=error_budget(
             airframe.candidates.model,
+            airframe.of_basis(name.basis).model,
             choice.model,
             landing.loads,
             landing.acceleration,
@@ -210,7 +212,7 @@ def _comparison(
             run=str(run.name),
             aircraft=airframe.aircraft.name,
             topology=run.name.topology,
-            basis=airframe.case.airframe.basis,
+            basis=run.name.basis,
             modes=run.choice.count,
             highest_hz=run.choice.highest_hz,
         )
@@ -230,8 +232,8 @@ def _write(study: Study, out: Path) -> None:
     write_csv(out / "measures.csv", study.measures)
     write_csv(out / "budget.csv", study.budgets)
     write_csv(out / "convergence.csv", study.convergence)
-    if len(study.reductions):
-        write_csv(out / "reductions.csv", study.reductions)
+    write_csv(out / "spectra.csv", study.spectra)
+    write_csv(out / "bases.csv", study.bases)
     np.savez_compressed(
         out / "histories.npz",
         time=study.runs[0].time,

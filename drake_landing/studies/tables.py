@@ -1,25 +1,34 @@
 """Tables of a study: measures, budgets, convergence."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from drake_landing.case import Selection
 from drake_landing.comparison import NEGLIGIBLE, agreement
+from drake_landing.handover import AttachmentLoads
 from drake_landing.relevance import modal_accelerations
+from drake_landing.selection import Candidates
 from drake_landing.studies.airframes import StudyAirframe
-from drake_landing.studies.budget import at_points, modal_forces, rms_share
+from drake_landing.studies.budget import (
+    at_points,
+    exact_response,
+    modal_forces,
+    rms_share,
+)
 
 if TYPE_CHECKING:
     from drake_landing.studies.study import StudyRun
 
 Float64 = npt.NDArray[np.float64]
 
-BUDGET = ("truncation", "formulation", "integration", "rest")
+BUDGET = ("truncation", "reduction", "formulation", "integration", "rest")
 _COUNTS = (5, 10, 15, 19, 25, 30, 36, 45, 55, 65, 73, 85, 95, 120, 150, 192, 210, 270)
 _COUNTS += (350, 450, 600)
+_PULSES = (10, 19, 36, 47, 60, 73, 95, 120)  # beyond there is nothing to gain
 
 
 def study_table(points: Sequence[str], runs: Sequence["StudyRun"]) -> pd.DataFrame:
@@ -60,8 +69,9 @@ def budget_table(points: Sequence[str], runs: Sequence["StudyRun"]) -> pd.DataFr
 
     `feedback` compares full-model responses: under the loads of this run and under
     those of the topology's run with most relevant modes, which has the best loads.
-    `expected` and `truncated` are the truncation error of the acceleration vector,
-    estimated before the run and found after it.
+    `expected` and `truncated` are the error of the acceleration vector because modes
+    are left out or a reduction lies before, estimated before the run and found
+    after it.
     """
     rows = []
     for run in runs:
@@ -90,8 +100,8 @@ def budget_table(points: Sequence[str], runs: Sequence["StudyRun"]) -> pd.DataFr
 
 
 def _truncated(run: "StudyRun") -> Float64:
-    """(p,) true truncation error of the acceleration vector: modes against full FE."""
-    lost = run.budget.truncation + run.budget.integration + run.budget.rest
+    """(p,) true error of the acceleration vector: linear modes against full FE."""
+    lost = run.budget.omitted
     size = (run.transient**2).sum(axis=2).mean(axis=0)
     return np.sqrt((lost**2).sum(axis=2).mean(axis=0) / size)
 
@@ -99,29 +109,61 @@ def _truncated(run: "StudyRun") -> Float64:
 def convergence_table(
     airframes: Mapping[str, StudyAirframe], runs: Sequence["StudyRun"]
 ) -> pd.DataFrame:
-    """Modal truncation error (vertical) over the number of modes, both orders.
+    """Linear modal response (vertical) over the number of modes, in several orders.
 
-    Loads are those of each topology's last run; the reference has all candidates.
+    `lowest` and `relevance` pick modes of the full model, `pulses` combines them, a
+    basis (`guyan`) picks the lowest modes of a reduced model. Loads and direct
+    transient are those of each topology's last run.
     """
     rows = []
     for topology, airframe in airframes.items():
-        loads = [r for r in runs if r.name.topology == topology][-1].landing.loads
-        model = airframe.candidates.model
-        q = modal_accelerations(
-            model.frequency_hz, model.damping, modal_forces(model, loads), loads.step
-        )
-        every = at_points(model, q)
-        orders = {
-            "lowest": airframe.candidates.relevance.elastic,
-            "relevance": airframe.candidates.relevance.order,
+        last = [r for r in runs if r.name.topology == topology][-1]
+        size = np.sqrt((last.transient[:, :, 2] ** 2).mean(axis=0))
+        orders: dict[str, tuple[Candidates, str]] = {
+            "lowest": (airframe.candidates, "count"),
+            "relevance": (airframe.candidates, "relevance"),
+            "pulses": (airframe.candidates, "pulses"),
+            **{name: (of, "count") for name, of in airframe.reduced.items()},
         }
-        for order, modes in orders.items():
-            for count in [c for c in _COUNTS if c < len(modes)]:
-                lost = np.zeros(len(model.frequency_hz), bool)
-                lost[modes[count:]] = True
-                share = rms_share(at_points(model, q, lost), every)
+        for order, (candidates, kind) in orders.items():
+            most = len(candidates.basis.frequency_hz)
+            wanted = _PULSES if kind == "pulses" else _COUNTS
+            counts = [n for n in wanted if n < most]
+            for count, errors in zip(
+                counts, _errors(candidates, kind, counts, last.landing.loads, last)
+            ):
                 for p, point in enumerate(airframe.aircraft.monitoring):
-                    rows.append([topology, order, count, point, float(share[p, 2])])
+                    share = float(errors[p] / size[p])
+                    rows.append([topology, order, count, point, share])
     return pd.DataFrame(
         rows, columns=["topology", "order", "modes", "point", "rms_error"]
     )
+
+
+def _errors(
+    candidates: Candidates,
+    kind: str,
+    counts: Sequence[int],
+    loads: AttachmentLoads,
+    run: "StudyRun",
+) -> Iterator[Float64]:
+    """(p,) rms of linear response less direct transient, vertical, for each count."""
+    if kind == "pulses":
+        for count in counts:
+            choice = candidates.choose(Selection(kind="pulses", value=count))
+            found = exact_response(choice.model, loads)
+            yield _vertical_rms(found - run.transient)
+        return
+    model = candidates.model
+    force = modal_forces(model, loads)
+    q = modal_accelerations(model.frequency_hz, model.damping, force, loads.step)
+    relevance = candidates.relevance
+    modes = relevance.order if kind == "relevance" else relevance.elastic
+    for count in counts:
+        keep = ~model.elastic
+        keep[modes[:count]] = True
+        yield _vertical_rms(at_points(model, q, keep) - run.transient)
+
+
+def _vertical_rms(difference: Float64) -> Float64:
+    return np.sqrt((difference[:, :, 2] ** 2).mean(axis=0))
