@@ -3,9 +3,9 @@
 Each gear is dropped on its own (`drop`) with its share of the aircraft, at the sink
 rate and the speed of the scenario; drag and side force act at the axle. Side force
 comes from drift, and, on gears off the centre plane, from an airframe that bends and
-swings its wheels sideways: a share of the drag, as sudden, stands for it. Where aircraft
-and scenario are symmetric, gears of a pair act together: antisymmetric modes are then
-known to be idle.
+swings its wheels sideways: a share of the drag, as sudden, stands for it. Where
+aircraft and scenario are symmetric, gears of a pair act together: antisymmetric modes
+are then known to be idle.
 """
 
 from collections.abc import Sequence

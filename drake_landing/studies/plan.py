@@ -148,11 +148,12 @@ PLANS = {
         level="full",
         topologies=("distributed",),
         selections=(
-            *("count 0", "guyan count 38", "guyan count 95", "guyan count 270"),
+            *("count 0", "guyan count 38", "guyan count 95"),
+            *("guyan count 192", "guyan count 270"),
             *("below 25 Hz", "below 50 Hz", "below 100 Hz", "below 150 Hz"),
             *("relevance 95", "pulses 47", "pulses 95"),
         ),
         candidates=200.0,
-        counts=(38, 95, 270),
+        counts=(38, 95, 192, 270),
     ),
 }
