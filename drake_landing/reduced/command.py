@@ -2,10 +2,11 @@
 
 from pathlib import Path
 
-from drake_landing.reduced.checks import check_reduction
+from drake_landing.cache import Cache
 from drake_landing.reduced.interface import interface_grids
-from drake_landing.reduced.make import METHODS, Method, reduce_structure
+from drake_landing.reduced.make import METHODS, Method
 from drake_landing.reduced.report import report_text, write_report
+from drake_landing.reduced.stored import checked_reduction
 from fem.deck.reader import read_deck
 from fem.errors import InputError, nearest
 from fem.structure import Structure
@@ -27,17 +28,18 @@ def reduce_deck(
         InputError: the deck, the interface or an option is at fault.
     """
     structure = Structure.from_deck(read_deck(deck))
-    reduced = reduce_structure(
+    model, checks = checked_reduction(
         structure,
         interface_grids(interface, structure),
         _method(basis),
         highest_hz=highest_hz,
         count=count,
+        compare_hz=compare_hz,
+        cache=Cache.of_user(),
     )
-    checks = check_reduction(structure, reduced, compare_hz)
     out.mkdir(parents=True, exist_ok=True)
-    files = write_report(out, reduced.model, checks)
-    text = report_text(reduced.model, checks)
+    files = write_report(out, model, checks)
+    text = report_text(model, checks)
     return f"{text}\nwritten: {', '.join(map(str, files))}"
 
 

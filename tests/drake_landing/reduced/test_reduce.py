@@ -3,11 +3,14 @@
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from drake_landing.aircraft import write_model
+from drake_landing.cache import Cache
 from drake_landing.cli import app, guarded
 from drake_landing.matrices import read_matrices
+from drake_landing.reduced import stored
 from drake_landing.reduced.checks import check_reduction, reduced_modes
 from drake_landing.reduced.interface import case_sets, interface_grids
 from drake_landing.reduced.make import METHODS, Method, reduce_structure
@@ -98,7 +101,9 @@ def test_command_writes_the_same_model_in_three_formats(
     for name, matrix in op4.items():
         np.testing.assert_array_equal(h5[name].values, matrix.values)
         if name == "RRED":  # columns without any term are not punched
-            assert set(map(tuple, punch[name].rows.tolist())) <= {
+            rows = punch[name].rows
+            assert rows is not None
+            assert set(map(tuple, rows.tolist())) <= {
                 (g, c)
                 for g in (*range(17001, 17004), *range(19001, 19007))
                 for c in range(1, 7)
@@ -107,6 +112,39 @@ def test_command_writes_the_same_model_in_three_formats(
         scale = np.abs(matrix.values).max()
         assert np.abs(punch[name].values - matrix.values).max() < 1e-9 * scale
     assert (tmp_path / "errors.png").stat().st_size > 5000
+
+
+def test_a_reduction_is_found_again_and_a_damaged_one_made_anew(
+    con: Structure, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls = []
+    honest = stored.reduce_structure
+
+    def counted(*arguments, **options):
+        calls.append(arguments[2])
+        return honest(*arguments, **options)
+
+    monkeypatch.setattr(stored, "reduce_structure", counted)
+    cache = Cache(tmp_path)
+    settings = {"highest_hz": 60.0, "count": 10, "compare_hz": 6.0, "cache": cache}
+    grids = interface_grids(FEW, con)
+    first, checks = stored.checked_reduction(con, grids, "guyan", **settings)
+    again, same = stored.checked_reduction(con, grids, "guyan", **settings)
+    assert calls == ["guyan"]
+    np.testing.assert_array_equal(again.stiffness, first.stiffness)
+    assert (again.source, again.notices) == (first.source, first.notices)
+    pd.testing.assert_frame_equal(same.modes, checks.modes, check_dtype=False)
+    assert same.rigid_modes == checks.rigid_modes == 6
+    # Other settings are another entry; a flipped bit is noticed.
+    stored.checked_reduction(con, grids[:-1], "guyan", **settings)
+    assert len(calls) == 2
+    for place in tmp_path.iterdir():
+        data = bytearray((place / "model-mass.npy").read_bytes())
+        data[-9] ^= 4
+        (place / "model-mass.npy").write_bytes(data)
+    mended, _ = stored.checked_reduction(con, grids, "guyan", **settings)
+    assert len(calls) == 3
+    np.testing.assert_array_equal(mended.mass, first.mass)
 
 
 def test_named_sets_and_bad_interfaces(con: Structure) -> None:
