@@ -121,3 +121,45 @@ def test_table_has_the_agreed_columns_and_hides_rounding_errors() -> None:
     assert table["rms_error"][2] == pytest.approx(0.1)
     assert table["peak_fe"][2] == pytest.approx(2, rel=1e-5)
     assert np.isnan(table["rms_error"][1])
+
+
+def half_sine_response(frequency: float, duration: float, quality: float) -> float:
+    """Largest absolute acceleration over the pulse's peak, in closed form."""
+    omega, forced, zeta = 2 * np.pi * frequency, np.pi / duration, 0.5 / quality
+    damped = omega * np.sqrt(1 - zeta**2)
+    shape = -1 / (omega**2 - forced**2 + 2j * zeta * omega * forced)
+
+    def ringing(t: np.ndarray, z: float, rate: float) -> tuple[np.ndarray, np.ndarray]:
+        """Free motion from a displacement and a rate."""
+        root = complex(-zeta * omega, damped)
+        both = z - 1j * (rate + zeta * omega * z) / damped
+        motion = both * np.exp(root * t)
+        return motion.real, (root * motion).real
+
+    inside = np.linspace(0.0, duration, 20001)
+    steady = shape * np.exp(1j * forced * inside)
+    start = ringing(inside, -shape.imag, -(1j * forced * shape).imag)
+    z, rate = steady.imag + start[0], (1j * forced * steady).imag + start[1]
+    after = np.linspace(0.0, 1 / frequency, 20001)
+    left = ringing(after, z[-1], rate[-1])
+    z, rate = np.append(z, left[0]), np.append(rate, left[1])
+    return float(np.abs(2 * zeta * omega * rate + omega**2 * z).max())
+
+
+@pytest.mark.parametrize("quality", [10.0, 1e5])
+def test_shock_spectrum_of_a_half_sine_is_the_closed_form(quality: float) -> None:
+    duration, step = 0.02, 1e-5
+    time = step * np.arange(3001)
+    pulse = np.sin(np.pi * time / duration) * (time < duration)
+    frequency = np.array([3.0, 10.0, 40.5, 80.0, 300.0])
+    found = shock_response_spectrum(pulse, step, frequency, quality=quality)
+    true = [half_sine_response(f, duration, quality) for f in frequency]
+    assert found == pytest.approx(true, rel=1e-4)
+
+
+def test_undamped_half_sine_has_the_known_largest_amplification() -> None:
+    # 1.768 where the oscillator swings 0.81 times within the pulse.
+    frequency = np.linspace(0.7, 0.9, 41) / 0.02
+    values = [half_sine_response(f, 0.02, 1e9) for f in frequency]
+    assert max(values) == pytest.approx(1.768, abs=1e-3)
+    assert 0.02 * frequency[np.argmax(values)] == pytest.approx(0.81, abs=0.01)
