@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from drake_landing.case import Case
     from drake_landing.process import ProcessResult
 
+_INTERRUPTED = 130
+
 app = typer.Typer(
     name="drake-landing",
     help="Aircraft landing loads: multibody simulation of the touchdown in Drake, then "
@@ -280,10 +282,9 @@ def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except typer.Exit as stop:
-        return stop.exit_code
+        result = stop.exit_code
     except (KeyboardInterrupt, typer.Abort):
-        print("interrupted", file=sys.stderr)
-        return 130
+        result = _INTERRUPTED
     except OSError as error:
         print(f"error: {_os_problem(error)}", file=sys.stderr)
         return 2
@@ -292,6 +293,8 @@ def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
             show(file=sys.stderr)
             return 2
         return _internal_failure(error)
+    if result == _INTERRUPTED:  # typer, too, makes it of Ctrl-C
+        print("interrupted", file=sys.stderr)
     return result if isinstance(result, int) else 0
 
 
@@ -310,3 +313,7 @@ def _internal_failure(error: BaseException) -> int:
     if os.environ.get("DRAKE_LANDING_TRACEBACK"):
         raise error
     return 1
+
+
+if __name__ == "__main__":
+    main()

@@ -1,13 +1,17 @@
 """The command line: exit states and messages, bad input of every kind."""
 
 import json
+import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from drake_landing.cache import Cache
 from drake_landing.cli import app, guarded
 
 HERE = Path(__file__).parent
@@ -165,13 +169,143 @@ def test_an_internal_failure_is_one_line_and_status_1(
     assert "Traceback" not in message
 
 
-def test_check_explains_a_case(tmp_path: Path, command: Run) -> None:
-    status, out, message = command("check", written(tmp_path))
+def test_check_says_what_matters_first(tmp_path: Path, command: Run) -> None:
+    case = written(tmp_path)
+    status, out, message = command("check", case)
     assert (status, message) == (0, "")
-    assert "23 grids" in out
-    assert "5,430.0 kg" in out
-    assert "main_right (52)" in out
+    lines = out.splitlines()
+    assert len(lines) < 20
+    assert lines[0].startswith("tiny: Beam aircraft")
+    for words in (
+        "23 grids",
+        "5,430.0 kg",
+        "6 rigid-body motions, no mechanism",
+        "main_right  telescopic, 2 wheels, 110.0 kg, stroke 0.25 m, at grid 52",
+        "sink energy 4.1 kJ",
+        "800 steps of 0.0005 s",
+        "out/tiny: report.html",
+    ):
+        assert words in out
+    assert "rebound_damping" not in out
+    _, everything, _ = command("check", case, "--all")
+    assert everything.startswith(lines[0])
+    assert "rebound_damping: 8000.0" in everything
     assert list(tmp_path.glob("out*")) == []
+
+
+BAD_FOR_CHECK = {
+    "hinge": (
+        lambda t: changed(t, "CBAR,111,2,22,23,", "CBAR,111,2,22,23,0.,0.,1.,\n,5\n$"),
+        ["7 motions without stiffness", "freely moves in 1 way: grid 23", "grid 24"],
+    ),
+    "no mass": (
+        lambda t: changed(t, "BEGIN BULK", "BEGIN BULK\nPARAM,WTMASS,0."),
+        ["mass of 0", "CONM2"],
+    ),
+    **{name: BAD_DECKS[name] for name in ("held", "loose part", "node on its own")},
+}
+
+
+@pytest.mark.parametrize(("spoil", "words"), BAD_FOR_CHECK.values(), ids=BAD_FOR_CHECK)
+def test_check_finds_what_run_would(
+    tmp_path: Path, command: Run, spoil: Callable[[str], str], words: list[str]
+) -> None:
+    status, _, message = command("check", written(tmp_path, deck=spoil(DECK)))
+    assert status == 2
+    assert all(word in message for word in words), message
+
+
+LATE = {
+    "deck": ("deck: tiny_aircraft.bdf", "deck: tiny_aircraft.bd", 5, "airframe.deck"),
+    "node": (
+        "attachment_node: 52",
+        "attachment_node: 59",
+        27,
+        "gears.main_right.attachment_node: found grid 59",
+    ),
+    "point": ("tail: 9", "tail: 10", 7, "airframe.monitoring.tail: found grid 10"),
+    "brakes": ("forward_speed: 40", "forward_speed: 40, braking: 1", 8, "scenario.bra"),
+    "lift": ("forward_speed: 40", "forward_speed: 40, lift: {}", 8, "scenario.lift"),
+    "units": ("deck:", "units: in-lbf\n  deck:", 5, "airframe.units: found in-lbf"),
+}
+
+
+@pytest.mark.parametrize(("old", "new", "line", "words"), LATE.values(), ids=LATE)
+@pytest.mark.parametrize("verb", ["check", "run"])
+def test_problems_found_late_say_where(
+    tmp_path: Path, command: Run, verb: str, old: str, new: str, line: int, words: str
+) -> None:
+    path = written(tmp_path, changed(CASE, old, new))
+    out = ("--out", tmp_path / "out") if verb == "run" else ()
+    status, _, message = command(verb, path, *out)
+    assert status == 2
+    assert f"{path}:{line}: {words}" in message, message
+
+
+def test_folders_of_other_results_are_not_overwritten(
+    tmp_path: Path, command: Run
+) -> None:
+    deck = tmp_path / "tiny_aircraft.bdf"
+    written(tmp_path)
+    arguments = ("show", deck, "--modes", 0, "--out", tmp_path / "out")
+    assert command(*arguments)[0] == 0
+    assert command(*arguments)[0] == 0  # its own results it may replace
+    status, _, message = command("reduce", deck, "--out", tmp_path / "out")
+    assert status == 2
+    assert "holds the results of 'show tiny_aircraft.bdf'" in message
+
+
+def test_version(command: Run) -> None:
+    status, out, _ = command("--version")
+    assert status == 0
+    assert out.startswith("drake-landing 0.")
+
+
+def test_cache_is_shown_and_cleared(
+    tmp_path: Path, command: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("DRAKE_LANDING_CACHE", str(tmp_path))
+    monkeypatch.setenv("DRAKE_LANDING_CACHE_GB", "2")
+    Cache.of_user().keep("modes", "a", {"x": np.zeros(1000)})
+    assert "1 entries, 0.0 MB of at most 2 GB" in command("cache")[1]
+    assert "deleted 1 entries" in command("cache", "--clear")[1]
+    assert list(tmp_path.iterdir()) == []
+    monkeypatch.setenv("DRAKE_LANDING_CACHE", "off")
+    assert "nothing is kept" in command("cache")[1]
+
+
+def test_an_interrupt_is_one_line_and_leaves_nothing_half_written(
+    tmp_path: Path,
+) -> None:
+    """The signal comes while the landing is being simulated."""
+    case = written(tmp_path, changed(CASE, "duration: 0.4", "duration: 50"))
+    run = subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "drake_landing.cli",
+            "run",
+            case,
+            "--out",
+            tmp_path / "o",
+        ],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert run.stderr is not None
+    for line in run.stderr:
+        if "landing" in line:
+            break
+    time.sleep(2.0)
+    run.send_signal(signal.SIGINT)
+    out, message = run.communicate(timeout=60)
+    assert run.returncode == 130
+    assert out == ""
+    assert message.splitlines()[-1] == "interrupted"
+    assert "Traceback" not in message
+    assert [p.name for p in (tmp_path / "o").rglob("*part*")] == []
+    assert not (tmp_path / "o" / "report.html").exists()
 
 
 def test_schema_is_json(command: Run) -> None:
