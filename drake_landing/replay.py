@@ -1,8 +1,9 @@
 """`landing.html`: the landing to look at, recorded in Meshcat, without a server.
 
-The aircraft stays in view and the runway's marks move past. The airframe's lines are a
-sequence of pictures, of which one is visible at a time, because a recording can move
-and show things but not bend them. Gears follow the attachment nodes.
+The aircraft stays in view and the runway's marks move past. The airframe is a sequence
+of pictures, of which one is visible at a time, because a recording can move and show
+things but not bend them. Gears follow the attachment nodes. What is drawn is in
+`replay_scene`; here is how it moves.
 """
 
 import logging
@@ -14,19 +15,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 from pydrake.common.eigen_geometry import Quaternion
-from pydrake.geometry import (
-    Box,
-    Cylinder,
-    Meshcat,
-    MeshcatAnimation,
-    MeshcatParams,
-    Rgba,
-)
+from pydrake.geometry import Meshcat, MeshcatAnimation, MeshcatParams
 from pydrake.math import RigidTransform, RotationMatrix
 
 from drake_landing.axes import gear_in_A, rotation_AB
 from drake_landing.gear import LandingGear
 from drake_landing.gear_pictures import rods
+from drake_landing.replay_scene import (
+    Arrow,
+    add_look,
+    add_rod,
+    add_runway,
+    add_wheel,
+    airframe_picture,
+)
 from drake_landing.results import write_aside
 from drake_landing.skeleton import Skeleton
 from systems.rotations import exp
@@ -40,12 +42,7 @@ _FRAMES_PER_SECOND = 16.0
 _SECONDS = 8.0  # of the replay
 _FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
 _VISIBLE_SHARE = 0.02  # of the aircraft's size: a deformation that one sees
-
-_LINE = Rgba(0.17, 0.32, 0.55, 1.0)
-_STRUT, _PISTON = Rgba(0.45, 0.48, 0.52, 1.0), Rgba(0.75, 0.77, 0.8, 1.0)
-_TYRE, _SPOKE = Rgba(0.13, 0.13, 0.14, 1.0), Rgba(0.9, 0.65, 0.15, 1.0)
-_GROUND, _MARK = Rgba(0.52, 0.55, 0.58, 1.0), Rgba(0.93, 0.93, 0.9, 1.0)
-_LOAD = Rgba(0.81, 0.23, 0.17, 1.0)
+_ARROW_SHARE = 0.13  # of the aircraft's size: the longest arrow
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,21 +71,35 @@ def write_replay(path: Path, result: "ProcessResult") -> None:
     factor = deformation_factor(skeleton, motion.amplitudes)
     animation = MeshcatAnimation(_FRAMES_PER_SECOND)
     size = float(np.ptp(skeleton.p, axis=0).max())
-    _look(meshcat, size)
+    add_look(meshcat, size)
     _runway(meshcat, animation, motion, size)
     _airframe(meshcat, animation, result, skeleton, motion, factor)
     R_AB = rotation_AB(result.case.airframe.axes)
+    largest = max(1.0, *(_size(t).max() for t in result.history.tyre.values()))
     for gear in result.aircraft.gears:
-        _gear(meshcat, animation, result, gear_in_A(gear, R_AB), motion, factor)
+        drawn = gear_in_A(gear, R_AB)
+        seen = _gear(meshcat, animation, result, drawn, motion, factor)
+        for wheel in gear.wheel_names:
+            arrow = Arrow(meshcat, f"/loads/{wheel}", _ARROW_SHARE * size / largest)
+            _load(
+                arrow, animation, result, drawn, wheel, seen[f"{wheel}_wheel"], motion
+            )
     meshcat.SetAnimation(animation)
-    slowness = _SECONDS / motion.time[-1]
-    caption = (
-        f"{result.case.title or result.case.name}: {motion.time[-1]:.2f} s, "
-        f"{slowness:.0f} times slower than real, deformation times {factor:g}, "
-        "red: vertical tyre loads"
-    )
+    caption = _caption(result, motion, factor, largest)
     html = _captioned(meshcat.StaticHtml(), caption)
     write_aside(path, lambda to: to.write_text(html, encoding="utf-8") and None)
+
+
+def _caption(
+    result: "ProcessResult", motion: Motion, factor: float, largest: float
+) -> str:
+    slowness = _SECONDS / motion.time[-1]
+    enlarged = f"deformation times {factor:g}, " if factor != 1.0 else ""
+    return (
+        f"{result.case.title or result.case.name}: {motion.time[-1]:.2f} s, "
+        f"{slowness:.0f} times slower than real, {enlarged}red: forces of the runway "
+        f"on the tyres, the longest {largest / 1e3:.0f} kN"
+    )
 
 
 def _quiet_meshcat() -> Meshcat:
@@ -139,36 +150,13 @@ def _rotation(q: Float64) -> Float64:
     return RotationMatrix(Quaternion(q / np.linalg.norm(q))).matrix()
 
 
-def _look(meshcat: Meshcat, size: float) -> None:
-    meshcat.SetProperty("/Background", "top_color", [0.93, 0.95, 0.97])
-    meshcat.SetProperty("/Background", "bottom_color", [0.80, 0.84, 0.88])
-    for path in ("/Grid", "/Axes"):
-        meshcat.SetProperty(path, "visible", False)
-    # Meshcat's lamps hang a few metres above the origin: made for robots' tables.
-    for lamp in ("PointLightNegativeX", "PointLightPositiveX", "SpotLight"):
-        meshcat.SetProperty(f"/Lights/{lamp}", "visible", False)
-    meshcat.SetProperty("/Lights/AmbientLight/<object>", "intensity", 1.6)
-    meshcat.SetProperty("/Lights/DirectionalLight", "visible", True)
-    meshcat.SetProperty("/Lights/DirectionalLight/<object>", "intensity", 1.0)
-    eye = size * np.array([-0.60, -0.66, 0.30])
-    meshcat.SetCameraPose(eye, np.array([0.0, 0.0, 0.05 * size]))
-
-
 def _runway(
     meshcat: Meshcat, animation: MeshcatAnimation, motion: Motion, size: float
 ) -> None:
-    length = motion.distance[-1] + 6 * size
-    middle = -length / 2 + 3 * size
-    ground = Box(length, 1.3 * size, 0.1)
-    meshcat.SetObject("/runway/ground", ground, _GROUND)
-    meshcat.SetTransform("/runway/ground", RigidTransform([middle, 0, -0.09]))
-    dash, gap = 0.25 * size, 0.75 * size
-    for i, x in enumerate(np.arange(middle - length / 2, middle + length / 2, gap)):
-        path = f"/runway/marks/{i}"
-        meshcat.SetObject(path, Box(dash, 0.02 * size, 0.01), _MARK)
-        meshcat.SetTransform(path, RigidTransform([x, 0, 0.0]))
+    add_runway(meshcat, size, float(motion.distance[-1]))
     for i, distance in enumerate(motion.distance):
-        animation.SetTransform(i, "/runway/marks", RigidTransform([distance, 0, 0]))
+        shift = RigidTransform([distance, 0, 0])
+        animation.SetTransform(i, "/runway/marks", shift)
 
 
 def _airframe(
@@ -180,13 +168,10 @@ def _airframe(
     factor: float,
 ) -> None:
     p_AG = result.airframe.body.p_BG
-    first, second = skeleton.edges.T
     for i, amplitudes in enumerate(motion.amplitudes):
         path = f"/airframe/at_{i}"
         p = (skeleton.deformed(amplitudes, factor) - p_AG) @ motion.R[i].T
-        p = np.asfortranarray((p + motion.p[i]).T)
-        start, end = np.asfortranarray(p[:, first]), np.asfortranarray(p[:, second])
-        meshcat.SetLineSegments(path, start, end, 2.0, _LINE)
+        airframe_picture(meshcat, path, skeleton, p + motion.p[i])
         meshcat.SetProperty(path, "visible", i == 0)
         for frame in (i - 1, i, i + 1):
             if 0 <= frame < len(motion.time):
@@ -200,34 +185,67 @@ def _gear(
     gear: LandingGear,
     motion: Motion,
     factor: float,
-) -> None:
-    """Bodies of a gear, moved with the enlarged deformation of its attachment node."""
+) -> dict[str, list[RigidTransform]]:
+    """Bodies of a gear, moved with the enlarged deformation of its attachment node.
+
+    Returns:
+        Name of each body -> where it is seen at the frames.
+    """
     body, history = result.airframe.body, result.history
     row = body.rows(gear.attachment_node)[0]
     radius = 0.16 * gear.tyre.radius
     for i, rod in enumerate(rods(gear, body.p_BN[row])):
-        color = _PISTON if rod.bright else _STRUT
         path = f"/gears/{rod.body}/rod_{i}"
-        _rod(meshcat, path, rod.start, rod.end, rod.thickness * radius, color)
+        add_rod(meshcat, path, rod, radius)
     for wheel in gear.wheel_names:
-        _wheel(meshcat, f"/gears/{wheel}_wheel", gear.tyre.radius)
-        _load(meshcat, animation, result, gear, wheel, motion)
-    seen = {
+        add_wheel(meshcat, f"/gears/{wheel}_wheel", gear.tyre.radius)
+    poses = {
         name: _poses_at(history.time, poses, motion)
         for name, poses in history.bodies.items()
         if name.startswith(f"{gear.name}_")
     }
+    seen: dict[str, list[RigidTransform]] = {name: [] for name in poses}
     for i, amplitudes in enumerate(motion.amplitudes):
         bend = factor * (body.translation[row] @ amplitudes)
         turn = exp(factor * (body.rotation[row] @ amplitudes)[None])[0]
         p = motion.p[i] + motion.R[i] @ (body.p_BN[row] - body.p_BG + bend)
         R = RotationMatrix.ProjectToRotationMatrix(motion.R[i] @ turn)
-        shift = RigidTransform(R, p) @ seen[f"{gear.name}_fitting"][i].inverse()
-        for name, poses in seen.items():
-            animation.SetTransform(i, f"/gears/{name}", shift @ poses[i])
-        for wheel in gear.wheel_names:
-            at = (shift @ seen[f"{wheel}_wheel"][i]).translation()
-            animation.SetTransform(i, f"/loads/{wheel}", RigidTransform(at))
+        shift = RigidTransform(R, p) @ poses[f"{gear.name}_fitting"][i].inverse()
+        for name in poses:
+            seen[name].append(shift @ poses[name][i])
+            animation.SetTransform(i, f"/gears/{name}", seen[name][i])
+    return seen
+
+
+def _load(
+    arrow: Arrow,
+    animation: MeshcatAnimation,
+    result: "ProcessResult",
+    gear: LandingGear,
+    wheel: str,
+    poses: list[RigidTransform],
+    motion: Motion,
+) -> None:
+    """The force of the runway on a tyre, from the ground beside it."""
+    table = result.history.tyre[wheel]
+    columns = ("deflection", "drag", "side", "vertical")
+    values = [np.interp(motion.time, table.index, table[name]) for name in columns]
+    offset = gear.wheel_offsets[gear.wheel_names.index(wheel) % len(gear.wheel_offsets)]
+    aside = (1.0 if offset >= 0.0 else -1.0) * 0.6 * gear.tyre.radius
+    for i, (X, deflection, drag, side, vertical) in enumerate(zip(poses, *values)):
+        axle = X.rotation().matrix()[:, 1]
+        aft = np.array([axle[1], -axle[0], 0.0])
+        aft /= np.linalg.norm(aft)
+        across = np.array([-aft[1], aft[0], 0.0])
+        foot = X.translation() + aside * axle
+        foot[2] -= gear.tyre.radius - max(deflection, 0.0)
+        force = drag * aft + side * across + np.array([0.0, 0.0, vertical])
+        arrow.show(animation, i, foot, force)
+
+
+def _size(tyre) -> Float64:
+    """(t,) magnitude of the force on a tyre, N."""
+    return np.sqrt((tyre[["vertical", "drag", "side"]] ** 2).sum(axis=1).to_numpy())
 
 
 def _poses_at(time: Float64, poses: Float64, motion: Motion) -> list[RigidTransform]:
@@ -238,52 +256,6 @@ def _poses_at(time: Float64, poses: Float64, motion: Motion) -> list[RigidTransf
         p = [row[4] + motion.distance[i], *row[5:]]
         found.append(RigidTransform(RotationMatrix(_rotation(row[:4])), p))
     return found
-
-
-def _wheel(meshcat: Meshcat, path: str, radius: float) -> None:
-    """A tyre, and a cross that shows that it turns."""
-    width = 0.55 * radius
-    across = RigidTransform(RotationMatrix.MakeXRotation(np.pi / 2), np.zeros(3))
-    meshcat.SetObject(f"{path}/tyre", Cylinder(radius, width), _TYRE)
-    meshcat.SetTransform(f"{path}/tyre", across)
-    for i, (x, z) in enumerate(((1.5, 0.16), (0.16, 1.5))):
-        spoke = Box(x * radius, 1.04 * width, z * radius)
-        meshcat.SetObject(f"{path}/spoke_{i}", spoke, _SPOKE)
-
-
-def _load(
-    meshcat: Meshcat,
-    animation: MeshcatAnimation,
-    result: "ProcessResult",
-    gear: LandingGear,
-    wheel: str,
-    motion: Motion,
-) -> None:
-    """A bar behind the wheel, as long as the vertical load."""
-    history = result.history
-    largest = max(float(t["vertical"].max()) for t in history.tyre.values())
-    table = history.tyre[wheel]
-    share = np.interp(motion.time, table.index, table["vertical"]) / max(largest, 1.0)
-    size = float(np.ptp(result.airframe.skeleton.p, axis=0).max())
-    length, width = 0.09 * size, 0.005 * size
-    path = f"/loads/{wheel}/bar"
-    meshcat.SetObject(path, Box(width, width, length), _LOAD)
-    for i, s in enumerate(np.maximum(share, 1e-3)):
-        p = [1.3 * gear.tyre.radius, 0.0, gear.tyre.radius + 0.5 * s * length]
-        animation.SetTransform(i, path, RigidTransform(p))
-        animation.SetProperty(i, f"{path}/<object>", "scale", [1.0, 1.0, float(s)])
-
-
-def _rod(
-    meshcat: Meshcat, path: str, a: Float64, b: Float64, radius: float, color: Rgba
-) -> None:
-    """A cylinder from a to b."""
-    length = float(np.linalg.norm(b - a))
-    if length < 1e-6:
-        return
-    R = RotationMatrix.MakeFromOneVector((b - a) / length, 2)
-    meshcat.SetObject(path, Cylinder(radius, length), color)
-    meshcat.SetTransform(path, RigidTransform(R, 0.5 * (a + b)))
 
 
 def _captioned(html: str, caption: str) -> str:

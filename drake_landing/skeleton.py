@@ -1,7 +1,7 @@
-"""The airframe as lines for pictures: element edges between grids, and mode shapes."""
+"""The airframe for pictures: element edges and faces between grids, mode shapes."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -26,17 +26,19 @@ _FACES = {
 
 @dataclass(frozen=True, kw_only=True)
 class Skeleton:
-    """Lines that deform.
+    """Lines and faces that deform.
 
     Attributes:
         p: (g, 3) positions of the grids, m, axes A.
         shape: (g, 3, n) modal displacement of the grids per unit amplitude, A.
         edges: (e, 2) rows of the two grids of each line.
+        faces: (t, 3) rows of the grids of each triangle; none by default.
     """
 
     p: Float64
     shape: Float64
     edges: Int64
+    faces: Int64 = field(default_factory=lambda: np.zeros((0, 3), np.int64))
 
     def thinned(self, count: int) -> "tuple[Int64, Skeleton]":
         """A coarser net with at most that many lines.
@@ -46,23 +48,39 @@ class Skeleton:
         Returns:
             Rows of the grids that stay, and the smaller skeleton.
         """
-        rows, edges = _used(np.arange(len(self.p)), self.edges)
+        of_cell, cells, edges = (
+            np.arange(len(self.p)),
+            np.arange(len(self.p)),
+            self.edges,
+        )
         cell = float(np.ptp(self.p, axis=0).max()) / 400
         while len(edges) > count:
-            rows, edges = _used(*_merged(self.p, self.edges, cell))
+            of_cell, cells = _merged(self.p, cell)
+            edges = _distinct(cells[self.edges])
             cell *= 1.2
-        return rows, Skeleton(p=self.p[rows], shape=self.shape[rows], edges=edges)
+        used, edges = np.unique(edges, return_inverse=True)
+        # Faces lie between lines: their corners are corners of lines.
+        faces = _distinct(cells[self.faces])
+        faces = faces[np.isin(faces, used).all(axis=1)]
+        rows = of_cell[used]
+        thinned = Skeleton(
+            p=self.p[rows],
+            shape=self.shape[rows],
+            edges=edges.reshape(-1, 2),
+            faces=np.searchsorted(used, faces),
+        )
+        return rows, thinned
 
     def deformed(self, amplitudes: Float64, factor: float) -> Float64:
         """(g, 3) positions at modal amplitudes (n,), displacements times a factor."""
         return self.p + factor * (self.shape @ amplitudes)
 
 
-def _merged(p: Float64, edges: Int64, cell: float) -> tuple[Int64, Int64]:
+def _merged(p: Float64, cell: float) -> tuple[Int64, Int64]:
     """One grid for each cell, the one nearest to the mean of its cell.
 
     Returns:
-        (c,) rows of these grids, (e, 2) edges in terms of the cells, each once.
+        (c,) rows of these grids, (g,) cell of each grid.
     """
     place = np.floor((p - p.min(axis=0)) / cell).astype(np.int64)
     _, of_grid = np.unique(place, axis=0, return_inverse=True)
@@ -72,14 +90,13 @@ def _merged(p: Float64, edges: Int64, cell: float) -> tuple[Int64, Int64]:
     away = np.linalg.norm(p - (mean / members[:, None])[of_grid], axis=1)
     order = np.lexsort((away, of_grid))
     first = np.searchsorted(of_grid[order], np.arange(len(members)))
-    pairs = np.unique(np.sort(of_grid[edges], axis=1), axis=0)
-    return order[first], pairs[pairs[:, 0] != pairs[:, 1]]
+    return order[first], of_grid
 
 
-def _used(rows: Int64, edges: Int64) -> tuple[Int64, Int64]:
-    """Without the grids that no edge uses."""
-    used, renumbered = np.unique(edges, return_inverse=True)
-    return rows[used], renumbered.reshape(edges.shape)
+def _distinct(corners: Int64) -> Int64:
+    """Lines (e, 2) or triangles (t, 3) whose corners differ, each once."""
+    corners = np.unique(np.sort(corners, axis=1), axis=0)
+    return corners[(np.diff(corners, axis=1) > 0).all(axis=1)]
 
 
 def element_edges(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:
@@ -108,3 +125,23 @@ def element_edges(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:
     edges = edges[np.isin(edges, grid_id).all(axis=1)]
     edges = np.unique(np.sort(edges, axis=1), axis=0)
     return np.searchsorted(grid_id, edges[edges[:, 0] != edges[:, 1]])
+
+
+def element_faces(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:
+    """Triangles of shells, quadrilaterals halved.
+
+    Args:
+        cards: tables of a deck.
+        grid_id: (g,) ascending.
+
+    Returns:
+        (t, 3) rows of `grid_id`.
+    """
+    found = [np.zeros((0, 3), np.int64)]
+    for card, corners in _FACES.items():
+        nodes = cards[card][list(corners)].to_numpy(np.int64)
+        found.append(nodes[:, :3])
+        if len(corners) == 4:
+            found.append(nodes[:, [0, 2, 3]])
+    faces = np.concatenate([f.reshape(-1, 3) for f in found])
+    return np.searchsorted(grid_id, faces[np.isin(faces, grid_id).all(axis=1)])

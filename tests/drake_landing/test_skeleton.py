@@ -1,11 +1,13 @@
 """Lines of an airframe for pictures."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from drake_landing.skeleton import Skeleton, element_edges
+from drake_landing.skeleton import Skeleton, element_edges, element_faces
 from fem.deck.reader import read_deck
 
 
@@ -54,3 +56,32 @@ def test_deformation() -> None:
     net = plate(3)
     moved = net.deformed(np.array([0.5]), 10.0)
     assert moved[:, 2] == pytest.approx(5 * net.p[:, 0])
+
+
+def test_faces_are_merged_with_the_lines() -> None:
+    fine = plate(60)
+    number = np.arange(61 * 61).reshape(61, 61)
+    corners = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
+    a, b, c, d = (corner.ravel() for corner in corners)
+    faces = np.vstack([np.column_stack([a, b, c]), np.column_stack([a, c, d])])
+    fine = replace(fine, faces=faces)
+    _, coarse = fine.thinned(500)
+    assert 0 < len(coarse.faces) < len(faces) / 4
+    u, v = (coarse.p[coarse.faces[:, i]] - coarse.p[coarse.faces[:, 0]] for i in (1, 2))
+    area = 0.5 * np.linalg.norm(np.cross(u, v), axis=1)
+    assert area.min() > 0.0
+    covered = np.ptp(coarse.p[:, 0]) * np.ptp(coarse.p[:, 1])
+    assert area.sum() == pytest.approx(covered, rel=0.25)
+    assert np.array_equal(fine.thinned(10**6)[1].faces.shape, faces.shape)
+
+
+def test_a_quadrilateral_gives_two_triangles() -> None:
+    corners = {"g1": [1], "g2": [2], "g3": [4], "g4": [3]}
+    none = {name: [] for name in corners}
+    cards = {
+        "CQUAD4": pd.DataFrame(corners),
+        "CTRIA3": pd.DataFrame(none)[["g1", "g2", "g3"]],
+        "CSHEAR": pd.DataFrame(none),
+    }
+    faces = element_faces(cards, np.array([1, 2, 3, 4]))
+    assert faces.tolist() == [[0, 1, 3], [0, 3, 2]]
