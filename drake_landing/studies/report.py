@@ -120,6 +120,7 @@ def _sections(study: "Study") -> Iterator[Section]:
     yield _measures(study)
     yield _budget(study)
     yield _bases(study)
+    yield _gaps(study)
     yield _costs(study)
 
 
@@ -208,6 +209,32 @@ def _bases(study: "Study") -> Section:
                 },
                 {"highest_hz": ".0f"} | dict.fromkeys(points, ".2%"),
             ),
+        ],
+    )
+
+
+def _gaps(study: "Study") -> Section:
+    table = study.gaps.pivot_table(
+        index=["practice", "modes"], columns="point", values="rms_error", sort=False
+    )
+    points = [p for p in study.plan.points if p in table.columns]
+    return Section(
+        id="gaps",
+        title="What more modes do not close",
+        text="The lowest modes of the full model against the transient, vertical "
+        "acceleration, linear, loads of one run: as in this study; with modal damping "
+        "that is not the projection of the transient's; with a longer step of the "
+        "transient.",
+        blocks=[
+            table_block(
+                table.reset_index(),
+                {
+                    "practice": "practice",
+                    "modes": "modes",
+                    **{p: p.replace("_", " ") for p in points},
+                },
+                dict.fromkeys(points, ".1%"),
+            )
         ],
     )
 

@@ -17,6 +17,7 @@ from drake_landing.selection import Choice
 from drake_landing.studies.airframes import StudyAirframe, study_airframe
 from drake_landing.studies.bases import bases_of, bases_table, spectrum_table
 from drake_landing.studies.budget import Budget, error_budget
+from drake_landing.studies.gaps import gap_table
 from drake_landing.studies.landings import LandingResult, LandingTask, fly_all
 from drake_landing.studies.plan import Plan, RunName
 from drake_landing.studies.tables import budget_table, convergence_table, study_table
@@ -64,6 +65,7 @@ class Study:
         convergence: modal truncation error over the number of modes.
         spectra: modes of bases beside those of the full model.
         bases: linear response of bases, also with residual vectors.
+        gaps: differences that more modes do not close.
         gears: table of `gears.csv`.
         seconds: stage -> wall time.
     """
@@ -78,6 +80,7 @@ class Study:
     convergence: pd.DataFrame
     spectra: pd.DataFrame
     bases: pd.DataFrame
+    gaps: pd.DataFrame
     gears: pd.DataFrame
     seconds: Mapping[str, float]
 
@@ -165,6 +168,7 @@ def run_study(
         convergence=convergence_table(airframes, runs),
         spectra=spectrum_table(airframes, bases),
         bases=bases_table(plan, airframes, bases, runs),
+        gaps=gap_table(plan, airframes, runs),
         gears=pd.concat(
             [r.landing.gears.assign(run=str(r.name)) for r in runs], ignore_index=True
         )[["run", "gear", "quantity", "peak", "time"]],
@@ -234,6 +238,7 @@ def _write(study: Study, out: Path) -> None:
     write_csv(out / "convergence.csv", study.convergence)
     write_csv(out / "spectra.csv", study.spectra)
     write_csv(out / "bases.csv", study.bases)
+    write_csv(out / "gaps.csv", study.gaps)
     np.savez_compressed(
         out / "histories.npz",
         time=study.runs[0].time,

@@ -21,7 +21,7 @@ PLAN = replace(
     topologies=("2",),
     selections=("count 0", "guyan count 40", "count 40", "relevance 40", "pulses 40"),
     further_bases=("craig-bampton",),
-    counts=(20, 40),
+    counts=(20, 40, 120),
     candidates=200.0,
     simulation=Simulation(duration=0.12),
     transient=Transient(step=2.5e-4),
@@ -103,6 +103,15 @@ def test_residual_vectors_do_not_cure_accelerations(study: Study) -> None:
     assert more["rms_error"].max() > 0.3 * before
 
 
+def test_foreign_damping_leaves_a_gap_that_modes_do_not_close(study: Study) -> None:
+    table = study.gaps[study.gaps["point"].isin(PLAN.points)]
+    worst = table.groupby(["practice", "modes"])["rms_error"].max()
+    assert worst["as in this study", 120] < 0.4 * worst["as in this study", 20]
+    for practice in ("modal damping 1% of critical", "transient at 5 ms"):
+        assert worst[practice, 120] > 0.7 * worst[practice, 40]
+        assert worst[practice, 120] > 3.0 * worst["as in this study", 120]
+
+
 def test_files(study: Study, folder: Path) -> None:
     out = folder / "out"
     table = pd.read_csv(out / "comparison.csv")
@@ -114,7 +123,7 @@ def test_files(study: Study, folder: Path) -> None:
     page = (out / "report.html").read_text(encoding="utf-8")
     assert page.count("<svg") == len(study.runs) + 2
     assert "<script" not in page
-    for name in ("measures", "budget", "convergence", "bases", "spectra"):
+    for name in ("measures", "budget", "convergence", "bases", "spectra", "gaps"):
         assert len(pd.read_csv(out / f"{name}.csv"))
     with np.load(out / "histories.npz") as file:
         assert file["multibody"].shape == file["transient"].shape
