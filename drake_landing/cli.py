@@ -5,9 +5,12 @@ internal failure. Heavy packages are imported by the commands that need them.
 """
 
 import os
+import signal
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -125,6 +128,10 @@ def model(
     cpacs_level: Annotated[
         str, typer.Option("--level", help="of from-cpacs: con, pre or full")
     ] = "pre",
+    topology: Annotated[
+        str | None,
+        typer.Option("--topology", help="gears' attachment: 1, 2, full: distributed"),
+    ] = None,
 ) -> None:
     """Writes a reference aircraft, or one from a CPACS file, as a Nastran deck."""
     from drake_landing.inputs import write_model_deck
@@ -135,11 +142,11 @@ def model(
             raise InputError("model from-cpacs: give a CPACS file")
         from drake_landing.aircraft.cpacs import write_cpacs_model
 
-        print(write_cpacs_model(source, cpacs_level, out).story(out))
+        print(write_cpacs_model(source, cpacs_level, out, topology).story(out))
         return
     if source is not None:
         raise InputError(f"model {level}: found {source}; only from-cpacs takes a file")
-    print(write_model_deck(level, out))
+    print(write_model_deck(level, out, topology))
 
 
 @app.command()
@@ -274,6 +281,16 @@ def main() -> None:
 
 def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
     """Exit status of a command; errors become one message on standard error."""
+    with _noted_interrupts() as interrupts:
+        status = _status(command, args, interrupts)
+    if status == _INTERRUPTED:
+        print("interrupted", file=sys.stderr)
+    return status
+
+
+def _status(
+    command: Callable[..., Any], args: list[str] | None, interrupts: list[int]
+) -> int:
     from fem.errors import InputError
 
     try:
@@ -282,20 +299,38 @@ def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except typer.Exit as stop:
-        result = stop.exit_code
+        return stop.exit_code
     except (KeyboardInterrupt, typer.Abort):
-        result = _INTERRUPTED
-    except OSError as error:
+        return _INTERRUPTED
+    except (Exception, SystemExit) as error:  # Drake's checks exit
+        return _INTERRUPTED if interrupts else _failure(error)
+    return result if isinstance(result, int) else 0
+
+
+def _failure(error: BaseException) -> int:
+    if isinstance(error, OSError):
         print(f"error: {_os_problem(error)}", file=sys.stderr)
         return 2
-    except (Exception, SystemExit) as error:  # Drake's checks exit
-        if (show := getattr(error, "show", None)) is not None:  # usage, from click
-            show(file=sys.stderr)
-            return 2
-        return _internal_failure(error)
-    if result == _INTERRUPTED:  # typer, too, makes it of Ctrl-C
-        print("interrupted", file=sys.stderr)
-    return result if isinstance(result, int) else 0
+    if (show := getattr(error, "show", None)) is not None:  # usage, from click
+        show(file=sys.stderr)
+        return 2
+    return _internal_failure(error)
+
+
+@contextmanager
+def _noted_interrupts() -> Iterator[list[int]]:
+    """Ctrl-C so far: libraries may make an error of their own of the exception."""
+    seen: list[int] = []
+
+    def note(number: int, frame: FrameType | None) -> None:
+        seen.append(number)
+        signal.default_int_handler(number, frame)
+
+    before = signal.signal(signal.SIGINT, note)
+    try:
+        yield seen
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _os_problem(error: OSError) -> str:
@@ -313,7 +348,3 @@ def _internal_failure(error: BaseException) -> int:
     if os.environ.get("DRAKE_LANDING_TRACEBACK"):
         raise error
     return 1
-
-
-if __name__ == "__main__":
-    main()

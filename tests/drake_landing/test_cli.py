@@ -283,7 +283,7 @@ def test_an_interrupt_is_one_line_and_leaves_nothing_half_written(
         [
             sys.executable,
             "-m",
-            "drake_landing.cli",
+            "drake_landing",
             "run",
             case,
             "--out",
