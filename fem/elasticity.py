@@ -16,6 +16,7 @@ import pandas as pd
 
 from fem.elements.block import Float64
 from fem.errors import InputError, nearest
+from fem.failure import Strength
 from fem.materials import complete
 from fem.tables import column, table, where
 
@@ -35,6 +36,7 @@ class Elasticity:
         shear: (2, 2) transverse shear stiffness; inf on the diagonal: rigid.
         solid: (6, 6) three-dimensional stiffness.
         rho, ge: density and structural damping coefficient.
+        strength: allowable stresses of a ply.
     """
 
     mid: int
@@ -44,6 +46,7 @@ class Elasticity:
     solid: Float64 | None
     rho: float
     ge: float
+    strength: Strength | None = None
 
     @property
     def shear_flexibility(self) -> Float64:
@@ -152,6 +155,7 @@ def _mat1(row: pd.Series) -> Elasticity:
         solid=isotropic_solid(e, nu),
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
+        strength=_strength(row, "st sc st sc ss", (e, e, g)),
     )
 
 
@@ -169,6 +173,7 @@ def _mat2(row: pd.Series) -> Elasticity:
         solid=None,
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
+        strength=_strength(row, "st sc st sc ss", (g11, g22, g33)),
     )
 
 
@@ -182,6 +187,32 @@ def _mat8(row: pd.Series) -> Elasticity:
         solid=None,
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
+        strength=_strength(
+            row, "xt xc yt yc s", tuple(_value(row, k) for k in ("e1", "e2", "g12"))
+        ),
+    )
+
+
+def _strength(
+    row: pd.Series, fields: str, moduli: tuple[float, float, float]
+) -> Strength:
+    """Strengths of a material card; a blank compression is like tension."""
+    xt, xc, yt, yc, s = (abs(float(row[name])) for name in fields.split())
+    xc, yc = xt if np.isnan(xc) else xc, yt if np.isnan(yc) else yc
+    values = np.array([xt, xc, yt, yc, s])
+    if float(row.get("strn", 0.0)) == 1.0:
+        strain = values
+    else:
+        stiff = np.repeat(moduli, (2, 2, 1))
+        strain = np.divide(values, stiff, out=np.full(5, np.nan), where=stiff > 0.0)
+    return Strength(
+        xt=xt,
+        xc=xc,
+        yt=yt,
+        yc=yc,
+        s=s,
+        f12=float(np.nan_to_num(row.get("f12", 0.0))),
+        strain=tuple(strain.tolist()),
     )
 
 

@@ -145,7 +145,9 @@ def _element_series(
 ) -> tuple[list[_Series], list[str]]:
     """Series of element results, and what has no place in the file."""
     series: list[_Series] = []
-    left: list[str] = []
+    left = [
+        f"element_failure of {card}" for card in solution.elements("element_failure")
+    ]
     for name, (table, ply_table, code, stress, ply_stress) in _ELEMENTS.items():
         for card, result in solution.elements(name).items():
             if card in PLIES:

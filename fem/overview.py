@@ -23,6 +23,7 @@ from fem.elements import (
     solid,
     visc,
 )
+from fem.failure import failure_names
 from fem.solution.options import WRITTEN
 
 BEGIN, END = "<!-- tables: python -m fem.overview -->", "<!-- end of tables -->"
@@ -92,6 +93,13 @@ _RESULTS: tuple[tuple[str, str, str, tuple[str, ...], str], ...] = (
         "strain",
         shell_recovery.ply_names(1),
         "each ply, suffix _p1, _p2, ... from the bottom",
+    ),
+    (
+        "CQUAD4_COMPOSITE, CTRIA3_COMPOSITE",
+        "failure",
+        "",
+        failure_names(1),
+        "each ply, with STRESS where PCOMP gives FT or SB",
     ),
     ("CSHEAR", "force", "", shear_panel.FORCE, ""),
     ("CSHEAR", "stress", "strain", shear_panel.STRESS, ""),

@@ -139,7 +139,7 @@ def element_tables(
     Args:
         points: numbering and displacement frames.
         blocks: the elements.
-        kind: "force", "stress" or "strain".
+        kind: "force", "stress", "strain" or "failure".
         selection: "ALL", "NONE" or element ids.
         detail: corners, fibres.
         loads: loads on elements between their grids.

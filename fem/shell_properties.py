@@ -21,6 +21,7 @@ from fem.elements.shell_section import (
     turned_stiffness,
 )
 from fem.errors import InputError
+from fem.failure import Failure
 from fem.laminate import Laminate
 from fem.tables import table, where
 
@@ -49,7 +50,7 @@ class ShellProperty:
         ge: structural damping coefficient.
         laminate: the plies, None for PSHELL.
         ply_id: (p,) numbers of the plies.
-        output: (p,) True where SOUT asks for the ply's stresses.
+        failure: what FT and SB measure the plies against, None: nothing.
     """
 
     card: str
@@ -68,6 +69,7 @@ class ShellProperty:
     ge: float
     laminate: Laminate | None = None
     ply_id: Int64 | None = None
+    failure: Failure | None = None
 
 
 def read_shell_properties(
@@ -203,7 +205,45 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
         ge=float(np.nan_to_num(float(row["ge"]))),
         laminate=laminate,
         ply_id=plies,
+        failure=_failure(row, materials, symmetric=lam.startswith("SY")),
     )
+
+
+def _failure(
+    row: pd.Series, materials: ElasticityTable, *, symmetric: bool
+) -> Failure | None:
+    """What FT and SB ask for; a theory holds where all plies have their strengths."""
+    theory, bond = str(row["ft"] or "").upper(), float(np.nan_to_num(row["sb"]))
+    if theory and _without_strength(row, materials, theory):
+        theory = ""
+    if not theory and not bond > 0.0:
+        return None
+    found = [materials[int(mid)].strength for mid in np.asarray(row["mids"])]
+    plies = [strength for strength in found if strength is not None]
+    plies = plies + plies[::-1] if symmetric else plies
+    return Failure(theory=theory, plies=tuple(plies), bond=bond)
+
+
+def _without_strength(
+    row: pd.Series, materials: ElasticityTable, theory: str
+) -> list[int]:
+    """Materials of a PCOMP that lack what its failure theory needs."""
+    strengths = {int(mid): materials[int(mid)].strength for mid in row["mids"]}
+    return [mid for mid, s in strengths.items() if s is None or not s.given(theory)]
+
+
+def strength_notices(deck: "Deck") -> list[str]:
+    """Failure theories of PCOMP without the strengths that they need."""
+    notices, materials = [], ElasticityTable(deck)
+    for _, row in table(deck, "PCOMP").iterrows():
+        theory = str(row["ft"] or "").upper()
+        lacking = _without_strength(row, materials, theory) if theory else []
+        if lacking:
+            notices.append(
+                f"{where('PCOMP', row)}: FT {theory}: no failure indices of the plies: "
+                f"no strengths for it in material {', '.join(map(str, lacking))}"
+            )
+    return notices
 
 
 def _stack(row: pd.Series, materials: ElasticityTable, *, symmetric: bool) -> Laminate:

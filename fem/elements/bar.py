@@ -129,12 +129,10 @@ class Bar(DenseBlock):
     def _force_matrix(self) -> Float64:
         return bar_forces(self._at_ends @ self._map)[:, :8]
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery:
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
         """Nastran's eight forces, or all six of both ends as table CBAR_ENDS."""
-        if kind != "force":
-            return self.stresses() if kind == "stress" else self.strains()
-        if not detail.ends:
-            return self.forces()
+        if kind != "force" or not detail.ends:
+            return super().recovery(kind, detail)
         return Recovery(
             table="CBAR_ENDS",
             columns=END_COLUMNS,

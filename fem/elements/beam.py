@@ -289,6 +289,11 @@ def beam_notices(deck: "Deck") -> list[str]:
             notices.append(f"{where('PBEAM', row)}: warping (CW) is ignored")
         if np.nan_to_num(row["s1"]) or np.nan_to_num(row["s2"]):
             notices.append(f"{where('PBEAM', row)}: shear relief S1, S2 is ignored")
+        if "YES" in [str(so).upper() for so in row["sos"][1:-1]]:
+            notices.append(
+                f"{where('PBEAM', row)}: results of CBEAM are given at both ends, not "
+                "at the stations between that ask for them (SO)"
+            )
     return notices
 
 

@@ -50,8 +50,7 @@ class Recovery:
         return linear
 
 
-Kind = Literal["force", "stress", "strain"]
-KINDS: tuple[Kind, ...] = ("force", "stress", "strain")
+Kind = Literal["force", "stress", "strain", "failure"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,7 +122,7 @@ class ElementBlock(Protocol):
         ...
 
     def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
-        """Forces, stresses or strains in the detail that is asked for."""
+        """Forces, stresses, strains or failure indices in the detail asked for."""
         ...
 
     def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:

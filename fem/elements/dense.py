@@ -54,6 +54,8 @@ class DenseBlock:
 
     def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
         """`forces`, `stresses` or `strains`; most elements know one detail only."""
+        if kind == "failure":
+            return None
         if kind == "force":
             return self.forces()
         return self.stresses() if kind == "stress" else self.strains()

@@ -24,6 +24,7 @@ from fem.elements.visc import read_cvisc
 from fem.errors import InputError
 from fem.nonstructural_mass import add_nonstructural_mass
 from fem.points import Points
+from fem.shell_properties import strength_notices
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -82,4 +83,4 @@ def read_elements(deck: "Deck", points: Points, *, nsm: int = 0) -> list[Element
 
 def element_notices(deck: "Deck") -> list[str]:
     """What the cards ask for and the elements do not model."""
-    return beam_notices(deck)
+    return [*beam_notices(deck), *strength_notices(deck)]

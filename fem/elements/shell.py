@@ -26,6 +26,7 @@ from fem.elements.shell_recovery import (
 )
 from fem.elements.shell_section import ShellSection, strain_rotation, vector_rotation
 from fem.elements.shell_shear import shear
+from fem.failure import FailureRecovery, failure_names
 from fem.shell_properties import ShellProperty
 
 # Elements that are computed at a time: their arrays stay in the cache.
@@ -184,8 +185,10 @@ class Shell(DenseBlock):
             strain=True,
         )
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery:
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
         """Results at the centre or with the corners, strains of surface or fibres."""
+        if kind == "failure":
+            return self._failures()
         if kind == "force":
             return self.forces(corner=detail.corner)
         if kind == "stress":
@@ -198,13 +201,13 @@ class Shell(DenseBlock):
             self.section.membrane, self.section.coupling, self.section.bending
         )
 
-    def _plies(self, *, strain: bool = False) -> Recovery:
-        """Ply results from the resultants at the centre, turned to material axes."""
+    def _material_resultants(self) -> Float64:
+        """(e, 8, 6 n) N, M and Q at the centre in material axes."""
         resultant = self.resultants()[:, 0]
         turn = strain_rotation(self.angle)
         # Stresses turn with the inverse transpose of what turns strains.
         turn = np.linalg.inv(turn).transpose(0, 2, 1)
-        matrix = np.concatenate(
+        return np.concatenate(
             [
                 turn @ resultant[:, 0:3],
                 turn @ resultant[:, 3:6],
@@ -212,25 +215,52 @@ class Shell(DenseBlock):
             ],
             axis=1,
         )
-        laminates = [p.laminate for p in self.properties if p.laminate is not None]
-        most = max(len(laminate.thickness) for laminate in laminates)
-        maps = np.full((len(self.properties), 5 * most, 8), np.nan)
-        for k, (found, laminate) in enumerate(zip(self.properties, laminates)):
-            one = np.s_[None]
-            flexible = _flexibility(
-                found.membrane[one], found.coupling[one], found.bending[one]
-            )[0]
-            ply = laminate.recovery(flexible, strain=strain).reshape(-1, 8)
-            maps[k, : len(ply)] = ply
+
+    def _plies(self, *, strain: bool = False) -> Recovery:
+        """Ply results from the resultants at the centre, turned to material axes."""
+        found = [ply_map(p, strain=strain) for p in self.properties]
+        most = max(map(len, found))
+        maps = np.full((len(found), 5 * most, 8), np.nan)
+        for k, ply in enumerate(found):
+            maps[k, : 5 * len(ply)] = ply.reshape(-1, 8)
         return PlyRecovery(
             table=f"{self.card}_COMPOSITE",
             columns=ply_names(most, strain=strain),
-            matrix=matrix,
+            matrix=self._material_resultants(),
             id=self.id,
             laminate=self.which,
             maps=tuple(maps),
             strain=strain,
         )
+
+    def _failures(self) -> Recovery | None:
+        """Failure indices; None where no property of the block asks for them."""
+        failures = tuple(p.failure for p in self.properties)
+        if not any(failures):
+            return None
+        maps = [
+            np.stack([ply_map(p), ply_map(p, strain=True)], axis=1)
+            for p in self.properties
+        ]
+        return FailureRecovery(
+            table=f"{self.card}_COMPOSITE",
+            columns=failure_names(max(map(len, maps))),
+            matrix=self._material_resultants(),
+            id=self.id,
+            laminate=self.which,
+            maps=tuple(maps),
+            failures=failures,
+        )
+
+
+def ply_map(found: ShellProperty, *, strain: bool = False) -> Float64:
+    """(p, 5, 8) ply results of a laminate from resultants, see `Laminate.recovery`."""
+    assert found.laminate is not None
+    one = np.s_[None]
+    flexible = _flexibility(
+        found.membrane[one], found.coupling[one], found.bending[one]
+    )
+    return found.laminate.recovery(flexible[0], strain=strain)
 
 
 def _flexibility(a: Float64, b: Float64, d: Float64) -> Float64:

@@ -15,6 +15,7 @@ ELEMENT_RESULTS: tuple[tuple[str, Kind], ...] = (
     ("FORCE", "force"),
     ("STRESS", "stress"),
     ("STRAIN", "strain"),
+    ("STRESS", "failure"),
 )
 _CORNERS = frozenset({"BILIN", "CORNER", "CUBIC", "SGAGE"})
 
