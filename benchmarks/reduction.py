@@ -177,14 +177,16 @@ def draw(path: Path, levels: Sequence[Level]) -> None:
             ("cb", f"Craig-Bampton, {level.interior} interior modes", "s"),
         ):
             paired = table[table[f"mac_{kind}"] >= PAIRED]
-            size = np.maximum(100 * paired[f"error_{kind}"].abs(), 1e-7)
-            axes.semilogy(paired.full_hz, size, mark, ms=4, alpha=0.8, label=name)
+            size = np.maximum(100 * paired[f"error_{kind}"].abs(), 1e-5)
+            axes.semilogy(paired.full_hz, size, mark, mfc="none", ms=5, label=name)
         lost = table[table.mac_guyan < PAIRED].full_hz
-        axes.plot(
-            *(lost, np.full(len(lost), 1.0), "|"),
-            color="black", ms=9, transform=axes.get_xaxis_transform(), clip_on=False,
-            label=f"{len(lost)} modes without a counterpart in Guyan's",
-        )  # fmt: skip
+        if len(lost):
+            axes.plot(
+                *(lost, np.full(len(lost), 0.97), "|"),
+                color="black", ms=9, transform=axes.get_xaxis_transform(),
+                label=f"{len(lost)} modes without a counterpart in Guyan's",
+            )  # fmt: skip
+        axes.set_ylim(5e-6, 10.0)
         axes.set_title(f"DLR-D150-{level.name.upper()}")
         axes.set_xlabel("frequency of the full model, Hz")
         axes.grid(alpha=0.4)
