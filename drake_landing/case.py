@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
     BeforeValidator,
+    ConfigDict,
     Discriminator,
     Field,
     PlainSerializer,
@@ -149,6 +150,9 @@ class Airframe(Section):
         description="how the built-in model holds its gears: 1, 2 or distributed, by "
         "default the model's first; for a deck a mere label of the result tables",
         coerce_numbers_to_str=True,
+        json_schema_extra={
+            "anyOf": [{"type": t} for t in ("string", "integer", "null")]
+        },
     )
     deck: Path | None = Field(
         default=None,
@@ -272,8 +276,16 @@ class Transient(Section):
     )
 
 
+def _named_schema(schema: dict[str, Any]) -> None:
+    """Case files may name the schema that editors check them against."""
+    named = {"type": "string", "description": "where editors find this schema"}
+    schema["properties"] = {"$schema": named, **schema["properties"]}
+
+
 class Case(Section):
     """One landing, from the deck to the comparison."""
+
+    model_config = ConfigDict(json_schema_extra=_named_schema)
 
     name: str = Field(
         pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$",

@@ -16,6 +16,8 @@ from drake_landing.case import Case
 from drake_landing.places import Places
 from fem.errors import InputError, nearest
 
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
 Loc = tuple[int | str, ...]
 
 
@@ -67,7 +69,8 @@ def case_text(case: Case) -> str:
 
 def schema_text() -> str:
     """JSON schema of a case file."""
-    return json.dumps(Case.model_json_schema(), indent=2, ensure_ascii=False)
+    schema = {"$schema": _DIALECT, **Case.model_json_schema()}
+    return json.dumps(schema, indent=2, ensure_ascii=False)
 
 
 def _read(path: Path) -> str:

@@ -7,7 +7,14 @@ fills in whatever is not given beside it.
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, ValidationInfo, model_validator
+from pydantic import (
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    model_validator,
+)
 
 from drake_landing.presets import LANDING_SINK_RATE, PRESETS, Preset, PresetName
 from drake_landing.section import Section, number
@@ -133,8 +140,18 @@ AnyLift = Annotated[
 ]
 
 
+def _sink_rate_or_preset(schema: dict[str, Any]) -> None:
+    """A preset, and an aircraft that rolls, bring a sink rate with them."""
+    schema["required"].remove("sink_rate")
+    rolling = {"properties": {"start": {"const": "rolling"}}, "required": ["start"]}
+    presets = {"properties": {"preset": {"type": "string"}}, "required": ["preset"]}
+    schema["anyOf"] = [{"required": ["sink_rate"]}, presets, rolling]
+
+
 class Scenario(Section):
     """State of the aircraft at the start. Zero angles: level, on the track."""
+
+    model_config = ConfigDict(json_schema_extra=_sink_rate_or_preset)
 
     preset: PresetName | None = Field(
         default=None,

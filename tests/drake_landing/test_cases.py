@@ -1,18 +1,58 @@
 """The ready-to-run cases are valid, and the schema that users see fits them."""
 
+import json
 from pathlib import Path
 
+import jsonschema
 import pytest
+import yaml
 
-from drake_landing.cases_io import case_text, load_case, parse_case
+from drake_landing.cases_io import case_text, load_case, parse_case, schema_text
+from fem.errors import InputError
 
-CASES = sorted(Path(__file__).parents[2].joinpath("cases").glob("*.yaml"))
+CASES = sorted(Path(__file__).parents[2].joinpath("cases").rglob("*.yaml"))
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_case_is_valid(path: Path) -> None:
     case = load_case(path)
     assert parse_case(case_text(case)) == case
+
+
+ACCEPTED = {
+    "sink rate": "{sink_rate: 2}",
+    "preset": "{preset: two_point}",
+    "rolling": "{start: rolling, lift: none}",
+}
+REFUSED = {"nothing": "{}", "no sink rate": "{pitch: 3}", "too fast": "{sink_rate: 20}"}
+
+
+def by_schema(text: str) -> bool:
+    schema = json.loads(schema_text())
+    data = json.loads(json.dumps(yaml.safe_load(text)))
+    return not list(jsonschema.Draft202012Validator(schema).iter_errors(data))
+
+
+def by_program(text: str) -> bool:
+    try:
+        parse_case(text)
+    except InputError:
+        return False
+    return True
+
+
+@pytest.mark.parametrize("name", [*ACCEPTED, *REFUSED])
+def test_editors_accept_what_the_program_accepts(name: str) -> None:
+    scenario = (ACCEPTED | REFUSED)[name]
+    text = (
+        f"$schema: case.json\nname: a\nairframe: {{model: con}}\nscenario: {scenario}"
+    )
+    assert by_schema(text) == by_program(text) == (name in ACCEPTED)
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_schema_fits_the_cases(path: Path) -> None:
+    assert by_schema(path.read_text())
 
 
 def test_there_are_cases() -> None:
