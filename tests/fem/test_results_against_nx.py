@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import fem
+from fem.cli import _status
 from fem.solution import run_deck
 
 _BAR = [0, 1, 2, 3, 4, 5, 6, 8, 9, 10, 11, 12, 13]
@@ -115,6 +116,27 @@ def test_statics(run, suffix, kind):
         if suffix == "_pload1" and card == "cbar":
             continue  # another table, see below
         compare(ours, theirs, "static/1", kind, card, 3e-7)
+
+
+@pytest.mark.parametrize("word", ["CORNER", "BILIN", "CENTER"])
+def test_corner_stresses_through_the_command_line(run, references, tmp_path, word):
+    """STRESS(CORNER): the centre and four corners, NX's figures; CENTER: the first."""
+    _, theirs = run("static_solid_shell_bar")
+    folder = references / "solid_shell_bar"
+    text = (folder / "static_solid_shell_bar.bdf").read_text()
+    (tmp_path / "a.bdf").write_text(text.replace("BILIN", word))
+    (tmp_path / "geom.inc").write_text((folder / "geom.inc").read_text())
+    assert _status([str(tmp_path / "a.bdf"), "--out", str(tmp_path)]) == 0
+    table = theirs.op2_results.stress.cquad4_stress[1]
+    data = table.data[0].astype(float)
+    with h5py.File(tmp_path / "a.h5") as file:
+        group = file["static/1/element_stress/CQUAD4"]
+        columns = [str(c) for c in group.attrs["columns"]]
+        assert len(columns) == 16 * (1 if word == "CENTER" else 5)
+        for element, values in zip(group["id"][:], group["value"][:]):
+            own = values.reshape(-1, 8)[:, [1, 2, 3, 5, 6, 7]]
+            rows = data[owners(table) == element][: len(own), [1, 2, 3, 5, 6, 7]]
+            assert np.abs(own - rows).max() < 3e-7 * np.abs(rows).max()
 
 
 @pytest.mark.parametrize("kind", ["force", "stress", "strain"])
