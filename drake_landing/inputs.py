@@ -174,15 +174,15 @@ def _matrices_deck(
     return deck, lambda path: deck_with_matrices(path, model)
 
 
-def write_model_deck(level: str, path: Path) -> str:
+def write_model_deck(level: str, path: Path, topology: str | None = None) -> str:
     """Writes a reference aircraft and says what was written.
 
     Raises:
-        InputError: unknown level, or the folder does not exist.
+        InputError: unknown level or topology, or the folder does not exist.
     """
     from drake_landing.aircraft import write_model
 
-    model = write_model(level, path)
+    model = write_model(level, path, topology)
     gears = sum(gear.mass for gear in model.gears)
     points = ", ".join(f"{name} {grid}" for name, grid in model.monitoring.items())
     return (

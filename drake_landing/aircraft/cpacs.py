@@ -66,16 +66,18 @@ class CpacsModel:
         )
 
 
-def write_cpacs_model(source: Path, level: str, path: Path) -> CpacsModel:
+def write_cpacs_model(
+    source: Path, level: str, path: Path, topology: str | None = None
+) -> CpacsModel:
     """Reads a file, builds the aircraft and writes its deck.
 
     Raises:
-        InputError: the file or the level is at fault.
+        InputError: the file, the level or the topology is at fault.
     """
     found = read_cpacs(source)
     facts, tables, taken, defaults = _replacements(found)
     with _replaced(facts, tables):
-        model = write_model(level, path)
+        model = write_model(level, path, topology)
     return CpacsModel(
         model=model,
         source=found.name,

@@ -5,6 +5,7 @@ import pytest
 
 from drake_landing.aircraft import build, write_model
 from drake_landing.aircraft.facts import facts
+from drake_landing.cli import app, guarded
 from fem.errors import InputError
 from fem.modes import normal_modes
 
@@ -124,6 +125,15 @@ def test_topologies_differ_in_the_main_gear_only():
     assert len(rigid) == 4
     titles = [line for line in one ^ two if "topology" in line]
     assert len(titles) + len(rigid) == len(one ^ two)
+
+
+def test_command_chooses_the_topology(tmp_path, capsys):
+    out = tmp_path / "a.bdf"
+    assert guarded(app, ["model", "con", "--topology", "2", "--out", str(out)]) == 0
+    assert "gear topology 2" in out.read_text()
+    line = ["model", "con", "--topology", "distributed", "--out", str(out)]
+    assert guarded(app, line) == 2
+    assert "expected one of 1, 2" in capsys.readouterr().err
 
 
 def test_write_model_writes_the_deck(tmp_path):
