@@ -1,43 +1,52 @@
 """Plausibility of the loads of every preset of CS-25, and what each run keeps.
 
-    OPENBLAS_NUM_THREADS=1 python -m benchmarks.presets [con|pre] [HZ]
+    OPENBLAS_NUM_THREADS=1 python -m benchmarks.presets [con] [pre] [--hz 50] [--write]
 
-Peaks per gear of the reference aircraft (maximum take-off mass; sink rates are those of
-the presets, for the design landing mass) against the static ratios of the paragraphs,
-and the errors of energy, momentum and symmetry. `vertical` is over the static load of
-the gear. Drag and side are over the vertical load of the same instant; the static
-ratios of CS-25 stand in brackets. `stop` is the acceleration of the unsprung parts as
-they reach their extension stops in the air, over g (25.487: 20). Errors are over the
-sink energy and momentum, for rolling over those of 3.048 m/s; symmetry over the largest
-attachment load.
+Prints the tables of `docs/presets.md`; with `--write` puts them there.
 """
 
+import argparse
 import os
-import sys
+import re
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-import time
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import pandas as pd
-from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
 
-from drake_landing.audit import Audit, audit, gear_loads
+from drake_landing.airframe import load_airframe
+from drake_landing.cache import Cache
 from drake_landing.cases_io import parse_case
-from drake_landing.lift import STANDARD_GRAVITY
-from drake_landing.presets import PRESETS, Preset, PresetName
+from drake_landing.gear import LandingGear
+from drake_landing.inputs import prepare_aircraft
+from drake_landing.lift import STANDARD_GRAVITY, aircraft_mass_centre
+from drake_landing.practices import rigid
+from drake_landing.presets import LANDING_SINK_RATE, PRESETS, RESERVE_SINK_RATE, Preset
 from drake_landing.scenario import Scenario
 from drake_landing.start import make_scenario_diagram, set_scenario_state
+from drake_landing.trial import Trial, try_scenario
 from systems.modal_body import ModalBody
 
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "presets.md"
 
-def reference_aircraft(level: str, below_hz: float):
+# An independent rigid model of three freedoms and the wheels' spin, of this aircraft:
+# preset, sink rate, mass in t, then stroke (m) and tyre load (kN) of one main gear and
+# of the nose gear.
+INDEPENDENT = (
+    ("three_point", 1.8288, 72.5, (0.313, 170, 0.342, 74)),
+    ("two_point", 1.8288, 72.5, (0.333, 189)),
+    ("three_point", LANDING_SINK_RATE, 64.5, (0.393, 328, 0.396, 162)),
+    ("two_point", LANDING_SINK_RATE, 64.5, (0.409, 398)),
+    ("reserve_energy", RESERVE_SINK_RATE, 64.5, (0.432, 554)),
+)
+
+
+def reference_aircraft(level: str, below_hz: float) -> tuple[ModalBody, Sequence]:
     """Modal body and gears of a built-in aircraft."""
-    from drake_landing.airframe import load_airframe
-    from drake_landing.inputs import prepare_aircraft
-
     text = (
         f"name: presets\nairframe: {{model: {level}, select: below {below_hz:g} Hz}}\n"
         "scenario: {sink_rate: 1}\n"
@@ -45,31 +54,24 @@ def reference_aircraft(level: str, below_hz: float):
     case = parse_case(text)
     with TemporaryDirectory() as folder:
         aircraft = prepare_aircraft(case, Path(folder))
-        return load_airframe(case.airframe, aircraft).body, aircraft.gears
+        model = load_airframe(case.airframe, aircraft, cache=Cache.of_user())
+        return model.body, aircraft.gears
 
 
 def run_preset(
-    name: PresetName, body: ModalBody, gears, duration: float, accuracy: float = 1e-5
-) -> tuple[Audit, pd.DataFrame, float]:
-    """Errors, table of peaks, processor seconds."""
-    scenario = Scenario.model_validate({"preset": name})
-    landing = make_scenario_diagram(body, gears, scenario)
-    simulator = Simulator(landing.diagram)
-    config = SimulatorConfig(
-        integration_scheme="runge_kutta3", accuracy=accuracy, max_step_size=5e-3
-    )
-    ApplySimulatorConfig(config, simulator)
-    context = simulator.get_mutable_context()
-    set_scenario_state(landing, context, scenario)
-    start = time.process_time()
-    simulator.Initialize()
-    simulator.AdvanceTo(duration)
-    seconds = time.process_time() - start
-    return audit(landing, context, scenario), gear_loads(landing, context), seconds
+    name: str, body: ModalBody, gears: Sequence[LandingGear], **given: float
+) -> Trial:
+    """The run of a preset, with other values where given."""
+    scenario = Scenario.model_validate({"preset": name, **given})
+    preset = scenario.preset_data
+    assert preset is not None
+    return try_scenario(body, gears, scenario, duration=preset.duration, accuracy=1e-5)
 
 
-def static_loads(body: ModalBody, gears) -> dict[str, float]:
-    """Vertical load of each gear at rest, N."""
+def at_rest(
+    body: ModalBody, gears: Sequence[LandingGear]
+) -> tuple[dict[str, float], float]:
+    """Vertical load of each gear at rest, N; height of the centre of gravity, m."""
     scenario = Scenario.model_validate({"preset": "taxi_bump"})
     landing = make_scenario_diagram(body, gears, scenario)
     context = landing.diagram.CreateDefaultContext()
@@ -80,7 +82,48 @@ def static_loads(body: ModalBody, gears) -> dict[str, float]:
         ports = [(t.GetOutputPort("contact"), t) for t in tires]
         contacts = [p.Eval(t.GetMyContextFromRoot(context)) for p, t in ports]
         loads[gear.name] = float(sum(contact[1] for contact in contacts))
-    return loads
+    airframe = landing.airframe.GetMyContextFromRoot(context)
+    return loads, landing.airframe.GetOutputPort("pose").Eval(airframe)[6]
+
+
+def conditions() -> Iterator[str]:
+    """Table of the presets and their values."""
+    yield "| preset | CS | condition | values | left to the case |"
+    yield "|---|---|---|---|---|"
+    for name, preset in PRESETS.items():
+        yield (
+            f"| `{name}` | {preset.paragraph} | {preset.title} | {_values(preset)} | "
+            f"{preset.remarks} |"
+        )
+
+
+def _values(preset: Preset) -> str:
+    units = {"sink_rate": "m/s", "forward_speed": "m/s"}
+    parts = []
+    for name, value in preset.values.items():
+        if isinstance(value, dict):  # the profile of a runway
+            profile = value["profile"]
+            value = ", ".join(f"{k} {v}" for k, v in profile.items())
+        elif isinstance(value, float):
+            unit = units.get(name, "°" if name in ("pitch", "roll", "yaw") else "")
+            value = f"{value:g} {unit}".strip().replace(" °", "°")
+        parts.append(f"{name} {value}")
+    return "; ".join(parts)
+
+
+def loads(trials: dict[str, Trial], static: dict[str, float]) -> Iterator[str]:
+    """Table of peaks; of symmetric conditions one main gear."""
+    yield (
+        "| preset | gear | vertical, kN | over static | drag, kN | over vertical | "
+        "spring-back, kN | side, kN | over vertical | stroke, m | stop, g |"
+    )
+    yield "|---|---|---|---|---|---|---|---|---|---|---|"
+    for name, trial in trials.items():
+        preset, peaks = PRESETS[name], trial.peaks
+        for gear in peaks.index:
+            if preset.symmetric and gear == "main_right":
+                continue
+            yield _row(name, preset, gear, peaks.loc[gear], static[gear])
 
 
 def _row(name: str, preset: Preset, gear: str, peaks: pd.Series, static: float) -> str:
@@ -89,50 +132,120 @@ def _row(name: str, preset: Preset, gear: str, peaks: pd.Series, static: float) 
         f"{peaks[f'{q}_ratio']:.2f}" + (f" ({ratios[q]:g})" if q in ratios else "")
         for q in ("drag", "side")
     )
-    stop = peaks["extension"] / STANDARD_GRAVITY
     cells = [
-        f"{name} ({preset.paragraph})",
-        gear,
+        f"`{name}`",
+        "main, each" if preset.symmetric and gear != "nose" else gear,
         f"{peaks['vertical'] / 1e3:.0f}",
         f"{peaks['vertical'] / static:.2f}",
         f"{peaks['drag'] / 1e3:.0f}",
         drag,
-        f"{peaks['spring_back'] / 1e3:.0f}",
-        f"{peaks['side'] / 1e3:.0f}",
-        side,
+        f"{-peaks['spring_back'] / 1e3:.0f}",
+        f"{abs(peaks['side']) / 1e3:.0f}",
+        side.removeprefix("-"),
         f"{peaks['stroke']:.3f}",
-        f"{stop:.1f}",
+        f"{peaks['extension'] / STANDARD_GRAVITY:.1f}",
     ]
     return "| " + " | ".join(cells) + " |"
 
 
-def main(level: str = "con", below_hz: float = 50.0) -> None:
-    """Prints both tables."""
-    body, gears = reference_aircraft(level, below_hz)
-    static = static_loads(body, gears)
-    mass = body.mass + sum(gear.mass for gear in gears)
-    print(f"D150 {level}, {mass / 1e3:.1f} t, {body.n} elastic modes\n")
-    print(
-        "| preset | gear | vertical, kN | over static | drag, kN | drag ratio | "
-        "spring-back, kN | side, kN | side ratio | stroke, m | stop, g |"
-    )
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
-    audits = []
-    for name, preset in PRESETS.items():
-        found, peaks, seconds = run_preset(name, body, gears, preset.duration)
-        for gear in peaks.index:
-            print(_row(name, preset, gear, peaks.loc[gear], static[gear]), flush=True)
+def audits(trials: dict[str, Trial]) -> Iterator[str]:
+    """Table of what each run keeps."""
+    yield "| preset | energy | momentum | symmetry | duration, s | processor, s |"
+    yield "|---|---|---|---|---|---|"
+    for name, trial in trials.items():
+        preset, found = PRESETS[name], trial.audit
         symmetry = f"{found.symmetry:.1e}" if preset.symmetric else "-"
-        momentum = abs(found.momentum).max()
-        audits.append(
-            f"| {name} | {found.energy:.1e} | {momentum:.1e} | {symmetry} | "
-            f"{preset.duration:g} | {seconds:.1f} |"
+        yield (
+            f"| `{name}` | {found.energy:.1e} | {abs(found.momentum).max():.1e} | "
+            f"{symmetry} | {preset.duration:g} | {trial.seconds:.1f} |"
         )
-    print("\n| preset | energy | momentum | symmetry | duration, s | processor, s |")
-    print("|---|---|---|---|---|---|")
-    print("\n".join(audits))
+
+
+def rigid_models(body: ModalBody, gears: Sequence[LandingGear]) -> Iterator[str]:
+    """Table: the rigid aircraft here and in the independent model."""
+    yield (
+        "| preset | sink, m/s | mass, t | gear | stroke, m | independent | "
+        "tyres, kN | independent |"
+    )
+    yield "|---|---|---|---|---|---|---|---|"
+    whole, _ = aircraft_mass_centre(body, gears)
+    for name, sink_rate, tonnes, wanted in INDEPENDENT:
+        mass = body.mass + 1e3 * tonnes - whole
+        scaled = replace(
+            rigid(body), mass=mass, inertia_G=body.inertia_G * mass / body.mass
+        )
+        peaks = run_preset(name, scaled, gears, sink_rate=sink_rate).peaks
+        pairs = zip(("main_left", "nose"), wanted[::2], wanted[1::2])
+        for gear, stroke, tyres in pairs:
+            found = peaks.loc[gear]
+            yield (
+                f"| `{name}` | {sink_rate:.2f} | {tonnes} | {gear.split('_')[0]} | "
+                f"{found['stroke']:.3f} | {stroke:.3f} | "
+                f"{found['vertical'] / 1e3:.0f} | {tyres} |"
+            )
+
+
+def braked_nose_load(body: ModalBody, gears: Sequence[LandingGear]) -> float:
+    """25.493(e): V_N = W/(A + B) [B + f μ A E/(A + B + μ E)], μ 0.8, f 2, in N."""
+    mass, centre = aircraft_mass_centre(body, gears)
+    _, height = at_rest(body, gears)
+    nose = next(gear for gear in gears if gear.name == "nose")
+    main = next(gear for gear in gears if gear.name == "main_left")
+    A, B = centre[0] - nose.axles[0][0], main.axles[0][0] - centre[0]
+    E = height + centre[2] - body.p_BG[2]
+    friction, factor = 0.8, 2.0
+    dynamic = factor * friction * A * E / (A + B + friction * E)
+    return mass * STANDARD_GRAVITY / (A + B) * (B + dynamic)
+
+
+def tables(level: str, below_hz: float) -> dict[str, list[str]]:
+    """Name of each table of an aircraft -> its lines."""
+    body, gears = reference_aircraft(level, below_hz)
+    static, _ = at_rest(body, gears)
+    mass, _ = aircraft_mass_centre(body, gears)
+    trials = {name: run_preset(name, body, gears) for name in PRESETS}
+    head = [
+        f"{mass / 1e3:.1f} t, {body.n} elastic modes below {body.frequency[-1]:.0f} "
+        f"Hz; at rest the nose gear carries {static['nose'] / 1e3:.1f} kN, a main gear "
+        f"{static['main_left'] / 1e3:.1f} kN, and by the formula of 25.493(e) the "
+        f"nose gear {braked_nose_load(body, gears) / 1e3:.0f} kN when braked.",
+        "",
+    ]
+    found = {f"loads_{level}": head + list(loads(trials, static))}
+    found[f"audit_{level}"] = list(audits(trials))
+    if level == "con":
+        found["rigid"] = list(rigid_models(body, gears))
+    return found
+
+
+def put(page: str, name: str, lines: Sequence[str]) -> str:
+    """The page with a table between its marks replaced."""
+    begin, end = f"<!-- {name} -->\n", f"<!-- /{name} -->"
+    text = begin + "\n".join(lines) + "\n" + end
+    pattern = re.escape(begin) + ".*?" + re.escape(end)
+    replaced, count = re.subn(pattern, lambda _: text, page, flags=re.DOTALL)
+    if count != 1:
+        raise SystemExit(f"{PAGE}: no place for {name}")
+    return replaced
+
+
+def main() -> None:
+    """Prints the tables, and writes them where that is wanted."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("levels", nargs="*", default=["con", "pre"])
+    parser.add_argument("--hz", type=float, default=50.0)
+    parser.add_argument("--write", action="store_true")
+    arguments = parser.parse_args()
+    found = {"conditions": list(conditions())}
+    for level in arguments.levels:
+        found |= tables(level, arguments.hz)
+    page = PAGE.read_text(encoding="utf-8")
+    for name, lines in found.items():
+        print(f"\n{name}\n", *lines, sep="\n")
+        page = put(page, name, lines)
+    if arguments.write:
+        PAGE.write_text(page, encoding="utf-8")
 
 
 if __name__ == "__main__":
-    arguments = sys.argv[1:]
-    main(*arguments[:1], *map(float, arguments[1:2]))
+    main()

@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
 
-from drake_landing.audit import audit, gear_loads
 from drake_landing.cases_io import parse_case
 from drake_landing.lift import aircraft_mass_centre
 from drake_landing.presets import PRESETS
 from drake_landing.scenario import Scenario
-from drake_landing.start import make_scenario_diagram, set_scenario_state
+from drake_landing.start import make_scenario_diagram
+from drake_landing.trial import try_scenario
 from fem.errors import InputError
 from tests.drake_landing.landing_gears import aircraft_gears, changed
 from tests.systems.synthetic_body import aircraft_body
@@ -26,17 +25,9 @@ def _gears():
 
 
 def _run(scenario, *, modes=8, duration=0.16, accuracy=1e-5):
-    landing = make_scenario_diagram(aircraft_body(modes), _gears(), scenario)
-    simulator = Simulator(landing.diagram)
-    config = SimulatorConfig(
-        integration_scheme="runge_kutta3", accuracy=accuracy, max_step_size=5e-3
-    )
-    ApplySimulatorConfig(config, simulator)
-    context = simulator.get_mutable_context()
-    set_scenario_state(landing, context, scenario)
-    simulator.Initialize()
-    simulator.AdvanceTo(duration)
-    return audit(landing, context, scenario), gear_loads(landing, context)
+    body = aircraft_body(modes)
+    trial = try_scenario(body, _gears(), scenario, duration=duration, accuracy=accuracy)
+    return trial.audit, trial.peaks
 
 
 @pytest.fixture(scope="module", params=PRESETS)
@@ -109,6 +100,21 @@ def test_lift_and_gravity_in_a_scenario():
     plain = Scenario.model_validate({"preset": "two_point"})
     _, without = _run(plain, modes=3, accuracy=1e-4)
     assert loads["stroke"]["main_left"] > without["stroke"]["main_left"] + 0.005
+
+
+def test_history_of_a_gear_has_its_peaks():
+    scenario = Scenario.model_validate({"preset": "two_point"})
+    trial = try_scenario(
+        aircraft_body(0), _gears(), scenario, duration=0.12, accuracy=1e-3
+    )
+    table, peaks = trial.history("main_left"), trial.peaks.loc["main_left"]
+    for column in ("vertical", "drag", "stroke"):
+        assert table[column].max() == peaks[column]
+    assert table["vertical"].idxmax() == peaks["time"]
+    # Sprung and unsprung masses are between tyres and airframe.
+    assert_allclose(table["fz"].max(), peaks["vertical"], rtol=0.15)
+    with pytest.raises(ValueError, match="no gear 'main', expected one of nose, main"):
+        trial.history("main")
 
 
 def test_values_beside_a_preset_override_it():
