@@ -1,5 +1,6 @@
 """Figures of a study in the paper's layout: multibody blue, direct transient red."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,6 +49,48 @@ def accelerations(study: "Study", run: "StudyRun") -> str:
             finish(axes, point.replace("_", " "), "m/s²", x=last)
         legend(figure, places[0])
         return svg(figure, f"vertical accelerations, {run.name}")
+
+
+def many_runs(study: "Study", runs: Sequence["StudyRun"]) -> str:
+    """Vertical acceleration, a row for each run, a column for each point."""
+    points = study.plan.points
+    with panels(len(runs), len(points), height=1.45) as (figure, grid):
+        for row, run in zip(grid, runs):
+            for axes, point in zip(row, points):
+                p = study.points.index(point)
+                multibody = run.landing.acceleration[:, p, 2]
+                curve(
+                    axes,
+                    run.time,
+                    run.transient[:, p, 2],
+                    TRANSIENT,
+                    "direct transient",
+                )
+                curve(axes, run.time, multibody, MULTIBODY, "multibody")
+                last = "time, s" if run is runs[-1] else None
+                finish(axes, point.replace("_", " "), "m/s²", x=last)
+            row[0].set_ylabel(_row_name(run))
+        for column in zip(*grid):
+            low, high = zip(*(axes.get_ylim() for axes in column))
+            for axes in column:
+                axes.set_ylim(min(low), max(high))
+        legend(figure, grid[0][0])
+        return svg(figure, f"vertical accelerations, {', '.join(map(_label, runs))}")
+
+
+def _label(run: "StudyRun") -> str:
+    return str(run.name)
+
+
+def _row_name(run: "StudyRun") -> str:
+    """Two short lines."""
+    count = run.choice.count
+    if count == 0:
+        return "rigid"
+    kind = run.name.parsed.kind
+    if kind not in ("relevance", "pulses"):
+        kind = f"to {run.choice.highest_hz:.0f} Hz"
+    return f"{count} modes\n{kind}"
 
 
 def convergence(study: "Study") -> str:

@@ -229,6 +229,7 @@ def _comparison(
 
 
 def _write(study: Study, out: Path) -> None:
+    from drake_landing.studies.pictures import write_pictures
     from drake_landing.studies.report import write_study_report
 
     write_csv(out / "comparison.csv", study.comparison)
@@ -248,3 +249,4 @@ def _write(study: Study, out: Path) -> None:
         transient=np.array([run.transient for run in study.runs]),
     )
     write_study_report(out / "report.html", study)
+    write_pictures(out / "figures", study)
