@@ -21,6 +21,11 @@ from drake_landing.studies.plan import FULL_MODES, RunName
 if TYPE_CHECKING:
     from drake_landing.studies.study import Study, StudyRun
 
+
+def _percent(share: float, _place: int | None = None) -> str:
+    return f"{100.0 * share:g} %"
+
+
 _ORDERS = {  # order of a selection -> label, line, colour
     "guyan": ("lowest modes, Guyan", "--", SERIES[1]),
     "craig-bampton": ("lowest modes, Craig-Bampton", "--", SERIES[4]),
@@ -36,19 +41,21 @@ def accelerations(study: "Study", run: "StudyRun") -> str:
     with panels(-(-len(points) // 2), 2, height=2.2) as (figure, grid):
         places = [axes for row in grid for axes in row]
         for i, (axes, point) in enumerate(zip(places, points)):
-            p = study.points.index(point)
-            curve(axes, run.time, run.transient[:, p, 2], TRANSIENT, "direct transient")
-            curve(
-                axes,
-                run.time,
-                run.landing.acceleration[:, p, 2],
-                MULTIBODY,
-                "multibody",
-            )
+            _both(axes, study, run, point)
             last = "time, s" if i >= len(points) - 2 else None
             finish(axes, point.replace("_", " "), "m/s²", x=last)
         legend(figure, places[0])
         return svg(figure, f"vertical accelerations, {run.name}")
+
+
+def _both(axes: Axes, study: "Study", run: "StudyRun", point: str) -> None:
+    """The transient as a broad line: it is seen where the multibody run covers it."""
+    p = study.points.index(point)
+    transient, multibody = run.transient[:, p, 2], run.landing.acceleration[:, p, 2]
+    curve(axes, run.time, transient, TRANSIENT, "direct transient")
+    axes.lines[-1].set_linewidth(2.6)
+    curve(axes, run.time, multibody, MULTIBODY, "multibody")
+    axes.lines[-1].set_linewidth(1.0)
 
 
 def many_runs(study: "Study", runs: Sequence["StudyRun"]) -> str:
@@ -57,18 +64,10 @@ def many_runs(study: "Study", runs: Sequence["StudyRun"]) -> str:
     with panels(len(runs), len(points), height=1.45) as (figure, grid):
         for row, run in zip(grid, runs):
             for axes, point in zip(row, points):
-                p = study.points.index(point)
-                multibody = run.landing.acceleration[:, p, 2]
-                curve(
-                    axes,
-                    run.time,
-                    run.transient[:, p, 2],
-                    TRANSIENT,
-                    "direct transient",
-                )
-                curve(axes, run.time, multibody, MULTIBODY, "multibody")
+                _both(axes, study, run, point)
                 last = "time, s" if run is runs[-1] else None
-                finish(axes, point.replace("_", " "), "m/s²", x=last)
+                title = f"{point.replace('_', ' ')}, m/s²" if run is runs[0] else ""
+                finish(axes, title, "", x=last)
             row[0].set_ylabel(_row_name(run))
         for column in zip(*grid):
             low, high = zip(*(axes.get_ylim() for axes in column))
@@ -121,7 +120,7 @@ def convergence(study: "Study") -> str:
                 axes.set_xscale("log")
                 axes.set_ylim(1e-3, 2.0)
                 axes.axhline(0.01, color="#8a94a3", linewidth=0.8)
-                axes.yaxis.set_major_formatter("{x:.1%}")
+                axes.yaxis.set_major_formatter(_percent)
                 axes.set_xticks([5, 10, 20, 50, 100, 200, 500])
                 axes.xaxis.set_major_formatter("{x:g}")
                 axes.xaxis.minorticks_off()
@@ -171,7 +170,7 @@ def budget_bars(study: "Study") -> str:
                 )
             axes.set_yscale("log")
             axes.set_ylim(1e-4, 1.0)
-            axes.yaxis.set_major_formatter("{x:.2%}")
+            axes.yaxis.set_major_formatter(_percent)
             axes.set_title(point.replace("_", " "))
             axes.set_xticks(at, [_short(r) for r in table.to_dict("records")])
             axes.tick_params(axis="x", labelsize=7, labelbottom=True)
