@@ -41,7 +41,7 @@ def read_direct(
     def chosen(name: str, factor: str) -> sp.csr_matrix | None:
         if not name:
             return None
-        scale = float(deck.param(factor))
+        scale = deck.number(factor)
         return sp.csr_matrix(scale * dmig(deck, points, name))
 
     return DirectMatrices(

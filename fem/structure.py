@@ -18,9 +18,11 @@ import pandas as pd
 import scipy.sparse as sp
 
 from fem.assembly import Matrices, assemble
-from fem.constraints.autospc import Singularities, find_singularities
-from fem.constraints.elimination import Elimination, eliminate
-from fem.damping import Damping
+from fem.constraints.autospc import Singularities
+from fem.constraints.elimination import Elimination
+from fem.constraints.sets import freedoms_of
+from fem.constraints.support import Support, support
+from fem.damping import Damping, damping_in_transients, inactive_damping
 from fem.direct_input import read_direct
 from fem.elements.registry import element_notices, read_elements
 from fem.errors import InputError
@@ -114,84 +116,65 @@ class Structure:
         return assemble(
             self.points,
             self.blocks,
-            coupled=_number(self.deck, "COUPMASS") > 0,
-            wtmass=_number(self.deck, "WTMASS"),
+            coupled=self.deck.number("COUPMASS") > 0,
+            wtmass=self.deck.number("WTMASS"),
             direct=direct,
             factors=(
-                _number(self.deck, "CK1"),
-                _number(self.deck, "CM1"),
-                _number(self.deck, "CB1"),
+                self.deck.number("CK1"),
+                self.deck.number("CM1"),
+                self.deck.number("CB1"),
             ),
         )
 
     @cached_property
     def weight(self) -> Weight:
         """Mass, centre of gravity and inertia (PARAM GRDPNT: reference grid)."""
-        grid = int(_number(self.deck, "GRDPNT"))
+        grid = int(self.deck.number("GRDPNT"))
         reference = self.points.xyz[self.points.rows(grid)] if grid > 0 else np.zeros(3)
         return weigh(
             self.points,
             self.matrices.mass,
             reference=reference,
-            wtmass=_number(self.deck, "WTMASS") or 1.0,  # 0 leaves no mass to divide
+            wtmass=self.deck.number("WTMASS") or 1.0,  # 0 leaves no mass to divide
         )
 
     # -- constraints ----------------------------------------------------------------
 
     @cached_property
-    def _support(self) -> tuple[Elimination, sp.csr_matrix, Singularities | None]:
-        """Elimination after AUTOSPC, K_ff, and what AUTOSPC found."""
-        elimination = eliminate(
-            self.deck, self.points, spc=self.subcase.spc, mpc=self.subcase.mpc
+    def _support(self) -> Support:
+        return support(
+            self.deck,
+            self.points,
+            self.subcase,
+            self.matrices.stiffness,
+            self.generalised_dof,
         )
-        # Generalised freedoms have no stiffness before the reduction gives them one.
-        elimination = elimination.with_fixed(
-            np.setdiff1d(self.generalised_dof, elimination.s)
-        )
-        reduced = elimination.reduce(self.matrices.stiffness)
-        if str(self.deck.param("AUTOSPC")).upper().startswith("N"):
-            return elimination, reduced, None
-        found = find_singularities(
-            reduced, elimination, self.points, epzero=_number(self.deck, "EPZERO")
-        )
-        if len(found.dof):
-            keep = ~np.isin(elimination.f, found.dof)
-            elimination = elimination.with_fixed(found.dof)
-            reduced = sp.csr_matrix(reduced[keep][:, keep])
-        # All of it constrained by the user is fine: enforced motion, loads on elements.
-        if not len(elimination.f) and len(found.dof):
-            raise InputError(
-                f"no free freedom is left: {len(found.dof)} have no stiffness "
-                "(AUTOSPC), the others are constrained; expected elements that hold "
-                "the grids, with a modulus above 0"
-            )
-        return elimination, reduced, found
 
     @property
     def elimination(self) -> Elimination:
         """Constraints of the subcase, AUTOSPC included: u_g = T u_f + u_0."""
-        return self._support[0]
+        return self._support.elimination
 
     @property
     def autospc(self) -> Singularities | None:
         """Freedoms that AUTOSPC constrained; None where it is switched off."""
-        return self._support[2]
+        return self._support.autospc
 
     @cached_property
     def generalised_dof(self) -> Int64:
         """(q,) rows of the g-set that QSET reserves for generalised coordinates."""
-        return _set_rows(self.deck, self.points, "QSET")
+        return freedoms_of(self.deck, self.points, "QSET")
 
     @cached_property
     def analysis_dof(self) -> Int64:
         """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
-        rows = _set_rows(self.deck, self.points, "ASET")
+        rows = freedoms_of(self.deck, self.points, "ASET")
         return np.setdiff1d(rows, self.generalised_dof)
 
     @cached_property
     def support_dof(self) -> Int64:
         """(r,) rows of the g-set that SUPORT names."""
-        return _set_rows(self.deck, self.points, "SUPORT")
+        return freedoms_of(self.deck, self.points, "SUPORT")
 
     def free_rows(self, dof: npt.ArrayLike, card: str) -> Int64:
         """Positions of rows of the g-set in the f-set.
@@ -219,7 +202,7 @@ class Structure:
     @property
     def stiffness(self) -> sp.csr_matrix:
         """(f, f) K."""
-        return self._support[1]
+        return self._support.stiffness
 
     @cached_property
     def mass(self) -> sp.csr_matrix:
@@ -229,22 +212,7 @@ class Structure:
     @cached_property
     def damping_g(self) -> Damping:
         """B = B1 + (G/W3 + ALPHA2) K + ALPHA1 M + K4/W4 of the g-set, in transients."""
-        param = {name: _number(self.deck, name) for name in _DAMPING_PARAMETERS}
-        stiff = param["ALPHA2"]
-        if param["W3"] > 0.0:
-            stiff += param["G"] / param["W3"]
-        other = self.matrices.damping
-        if param["W4"] > 0.0 and self.matrices.structural_damping.nnz:
-            k4 = sp.csr_matrix(self.matrices.structural_damping / param["W4"])
-            elements = Damping.of(k4, self.matrices.stiffness)
-            stiff += elements.stiffness_factor
-            if elements.other is not None:
-                other = sp.csr_matrix(other + elements.other)
-        return Damping(
-            stiffness_factor=stiff,
-            mass_factor=param["ALPHA1"],
-            other=other if other.nnz else None,
-        )
+        return damping_in_transients(self.deck, self.matrices)
 
     @cached_property
     def damping(self) -> Damping:
@@ -334,26 +302,15 @@ class Structure:
     def pieces(self) -> list[Int64]:
         """Points of each piece of the model that nothing connects to the others."""
         e = self.elimination
-        return unconnected_pieces(self.points, self.blocks, e.dependence, e.m)
+        direct = read_direct(self.deck, self.points, k2gg=self.subcase.k2gg)
+        return unconnected_pieces(
+            self.points, self.blocks, e.dependence, e.m, direct.stiffness
+        )
 
     @cached_property
     def damping_notices(self) -> list[str]:
         """Damping that the deck gives and that a transient does not use."""
-        lines = []
-        g = _number(self.deck, "G")
-        if g != 0.0 and _number(self.deck, "W3") == 0.0:
-            lines.append(
-                f"the damping PARAM,G,{g:g} is inactive: a transient uses it only with "
-                "PARAM,W3; give W3, the circular frequency (rad/s) at which it is to "
-                "hold, and it becomes the viscous damping (G/W3) K"
-            )
-        if self.matrices.structural_damping.nnz and _number(self.deck, "W4") == 0.0:
-            lines.append(
-                "the damping of elements and materials (GE) is inactive: a transient "
-                "uses it only with PARAM,W4; give W4, the circular frequency (rad/s) "
-                "at which it is to hold, and it becomes the viscous damping (GE/W4) K"
-            )
-        return lines
+        return inactive_damping(self.deck, self.matrices)
 
     def label(self, row: int) -> str:
         """Name of a row of the f-set: "grid 12 T3"."""
@@ -429,29 +386,3 @@ _OF_MODEL = frozenset(
 _OF_SUPPORT = frozenset(
     {"_support", "mass", "damping", "rigid_body", "notices", "damping_notices"}
 )
-_DAMPING_PARAMETERS = ("G", "W3", "W4", "ALPHA1", "ALPHA2")
-
-
-def _number(deck: Deck, name: str) -> float:
-    """A parameter as a number."""
-    return float(deck.param(name))
-
-
-def _set_rows(deck: Deck, points: Points, card: str) -> Int64:
-    """Rows of the g-set that ASET, QSET or SUPORT cards name, ascending.
-
-    Raises:
-        InputError: points that are not defined.
-    """
-    table = deck.cards[card]
-    rows: list[Int64] = []
-    problems: list[str] = []
-    for point, digits in zip(table["id"], table["c"]):
-        components = [int(c) for c in str(digits) if c.isdigit()] or [0]
-        try:
-            rows.append(points.dof(int(point), components))
-        except InputError as error:
-            problems += [f"{card}: {text}" for text in error.problems]
-    if problems:
-        raise InputError(problems)
-    return np.unique(np.concatenate(rows)) if rows else np.zeros(0, dtype=np.int64)

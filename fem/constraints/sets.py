@@ -1,8 +1,12 @@
-"""Sets of constraint cards and their unions (SPCADD, MPCADD)."""
+"""Sets of constraint cards with their unions (SPCADD, MPCADD), sets of freedoms."""
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
+from fem.elements.block import Int64
 from fem.errors import InputError
+from fem.points import Points
 from fem.tables import table
 
 if TYPE_CHECKING:
@@ -32,3 +36,23 @@ def member_sets(deck: "Deck", card: str, sid: int) -> list[int]:
             for s in absent
         )
     return sets
+
+
+def freedoms_of(deck: "Deck", points: Points, card: str) -> Int64:
+    """Rows of the g-set that ASET, QSET or SUPORT cards name, ascending.
+
+    Raises:
+        InputError: points that are not defined.
+    """
+    named = table(deck, card)
+    rows: list[Int64] = []
+    problems: list[str] = []
+    for point, digits in zip(named["id"], named["c"]):
+        components = [int(c) for c in str(digits) if c.isdigit()] or [0]
+        try:
+            rows.append(points.dof(int(point), components))
+        except InputError as error:
+            problems += [f"{card}: {text}" for text in error.problems]
+    if problems:
+        raise InputError(problems)
+    return np.unique(np.concatenate(rows)) if rows else np.zeros(0, dtype=np.int64)

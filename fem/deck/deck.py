@@ -47,6 +47,10 @@ class Deck:
         """
         return self.params.get(name, DEFAULTS[name])
 
+    def number(self, name: str) -> float:
+        """Value of a numeric parameter, see `param`."""
+        return float(self.param(name))
+
     def subcase(self, number: int) -> Subcase:
         """The subcase of that id.
 

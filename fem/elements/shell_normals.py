@@ -54,4 +54,4 @@ def deck_normals(deck: "Deck", points: "Points") -> Float64:
         if len(rows):
             grids = rows[[f"g{k}" for k in range(1, corners + 1)]].to_numpy(np.int64)
             connections.append(points.rows(grids))
-    return grid_normals(points.xyz, connections, float(deck.param("SNORM")))
+    return grid_normals(points.xyz, connections, deck.number("SNORM"))

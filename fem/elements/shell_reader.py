@@ -95,7 +95,7 @@ def _block(
         offset=column(rows, "zoffs"),
         normals=normals[at],
         section=sections(list(used), which, angle, thickness),
-        k6rot=float(deck.param("K6ROT")),
+        k6rot=deck.number("K6ROT"),
         properties=used,
         which=which,
         angle=angle,

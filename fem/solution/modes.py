@@ -119,7 +119,7 @@ def retained_modes(deck: Deck, modes: Modes) -> Modes:
     if lowest > 0:
         keep = np.arange(modes.count) < lowest
     else:
-        low, high = float(deck.param("LFREQ")), float(deck.param("HFREQ"))
+        low, high = deck.number("LFREQ"), deck.number("HFREQ")
         keep = (hertz >= low) & (hertz <= high)
     if not keep.any():
         raise InputError(
