@@ -263,7 +263,7 @@ def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
 
 
 def _summary(result: "ProcessResult", folder: Path) -> str:
-    from drake_landing.summary import key_figures, story
+    from drake_landing.summary import key_figures, story, time_taken
 
     figures = key_figures(result)
     width = max(len(name) for name, _ in figures)
@@ -271,6 +271,7 @@ def _summary(result: "ProcessResult", folder: Path) -> str:
     lines += [f"  {name:<{width}}  {value}" for name, value in figures]
     if result.notices:
         lines += ["", *(f"note: {notice}" for notice in result.notices)]
+    lines += ["", *time_taken(result)]
     return "\n".join([*lines, "", f"report: {folder / 'report.html'}"])
 
 

@@ -3,11 +3,15 @@
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
 from fem.envelope import Envelope
+from fem.observation import Chunk, Observer, StateChunk
 from fem.recovery import element_tables
 from fem.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
 
 KINDS = ("force", "stress")
 
@@ -22,6 +26,33 @@ def element_envelopes(structure: Structure) -> list[Envelope]:
         for kind in KINDS
         for table in element_tables(structure.points, structure.blocks, kind)
     ]
+
+
+class OfFirstCase:
+    """Observers that are shown the first load case alone.
+
+    The products of their operators are then taken for that one only. They see
+    displacements at rest: dampers show no results.
+    """
+
+    def __init__(self, observers: Sequence[Observer]) -> None:
+        self._observers = observers
+
+    def begin(self, time: Float64, cases: int, size: int) -> None:
+        """See `Observer`."""
+        for observer in self._observers:
+            observer.begin(time, 1, size)
+
+    def observe(self, chunk: Chunk) -> None:
+        """See `Observer`."""
+        first = chunk.get("displacement")[:, :1]
+        alone = StateChunk(chunk.first, chunk.time, {"displacement": first})
+        for observer in self._observers:
+            observer.observe(alone)
+
+    def memory_bytes(self, times: int, cases: int, size: int) -> int:
+        """See `Observer`."""
+        return sum(o.memory_bytes(times, 1, size) for o in self._observers)
 
 
 def worst_elements(envelopes: Sequence[Envelope], count: int = 5) -> pd.DataFrame:

@@ -19,27 +19,23 @@ from drake_landing.case import Case
 from drake_landing.cases_io import case_text
 from drake_landing.comparison import RunLabel, comparison_table
 from drake_landing.deck_units import check_units, in_deck_units
-from drake_landing.extremes import element_envelopes, worst_elements
+from drake_landing.extremes import worst_elements
+from drake_landing.full_response import full_response
 from drake_landing.gear_checks import check_gears
 from drake_landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.history import POINT, LandingHistory, gear_peaks
 from drake_landing.inputs import Aircraft, prepare_aircraft
 from drake_landing.landing import build_landing, fast_mode_notices, fly
 from drake_landing.parts import tables
-from drake_landing.parts.inventory import inventory
-from drake_landing.parts.places import places_of
-from drake_landing.parts.slices import extreme_instants, static_slices
 from drake_landing.parts.watch import PartsFound, PartsWatch
-from drake_landing.practices import Practices, compare_practices, rigid
+from drake_landing.practices import Practices, rigid
 from drake_landing.progress import Reporter
-from drake_landing.response import transient_response
 from drake_landing.results import write_csv, write_history_csv, write_results
-from drake_landing.stages import Spent, Stages, Timed
+from drake_landing.stages import Stages
 from drake_landing.transient_deck import transient_deck, write_transient_deck
 from fem.deck.units import units_of
 from fem.envelope import Envelope
 from fem.structure import Structure
-from fem.transient import TransientRun
 from systems.modal_body import ModalBody
 
 
@@ -114,6 +110,7 @@ def run_case(
 def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> ProcessResult:
     out.mkdir(parents=True, exist_ok=True)
 
+    cache = Cache.of_user()
     stages.begin("reading the deck")
     aircraft = prepare_aircraft(case, out)
     structure = aircraft.structure()
@@ -128,7 +125,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         aircraft,
         stages.progress,
         case.scenario,
-        Cache.of_user(),
+        cache,
         structure,
     )
 
@@ -148,26 +145,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     if rigid_history is not None:
         all_loads.append(_on_transient_grid(case, rigid_history))
 
-    stages.begin("maps of stresses and section loads")
-    watch = _watch(case, aircraft, airframe, loads)
-    envelopes = element_envelopes(structure)
-    stages.begin("direct transient", f"({len(all_loads)} load cases)")
-    response = _respond(case, aircraft, airframe, all_loads, watch, envelopes, stages)
-    parts = watch.found(all_loads)
-
-    compared = None
-    if practices:
-        stages.begin("static slices")
-        gears = {gear.name: gear.attachments.values() for gear in aircraft.gears}
-        slices = static_slices(
-            structure,
-            loads,
-            extreme_instants(loads, {name: list(n) for name, n in gears.items()}),
-            watch.stresses,
-            watch.cuts,
-            watch.grids,
-        )
-        compared = compare_practices(parts, slices, all_loads[1], aircraft.monitoring)
+    full = full_response(case, aircraft, airframe, all_loads, cache, stages)
 
     stages.begin("comparing")
     label = RunLabel(
@@ -181,7 +159,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     comparison = comparison_table(
         label,
         loads.time,
-        {name: table.to_numpy() for name, table in response.items()},
+        {name: table.to_numpy() for name, table in full.response.items()},
         {n: t.to_numpy() for n, t in on_grid(history, loads.time).items()},
     )
     result = ProcessResult(
@@ -190,21 +168,21 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         airframe=airframe,
         history=history,
         loads=loads,
-        response=response,
-        envelopes=tuple(envelopes),
+        response=full.response,
+        envelopes=full.envelopes,
         comparison=comparison,
         gears=gear_peaks(case.name, history),
-        parts=parts,
-        practices=compared,
+        parts=full.parts,
+        practices=full.practices,
         notices=(
             *aircraft.notices,
             *airframe.notices,
-            *remarks,
+            *map(case.places.named, remarks),
             *fast_mode_notices(airframe.body, case.simulation),
         ),
         stages=stages,
     )
-    write_all(result, out, watch)
+    write_all(result, out, full.watch)
     return result
 
 
@@ -232,63 +210,6 @@ def _fly(
 def _on_transient_grid(case: Case, history: LandingHistory) -> AttachmentLoads:
     return history.attachment_loads().resampled(
         case.transient.step, case.transient_duration
-    )
-
-
-def _watch(
-    case: Case, aircraft: Aircraft, airframe: AirframeModel, loads: AttachmentLoads
-) -> PartsWatch:
-    """What is looked at in the transient."""
-    structure = airframe.structure
-    return PartsWatch(
-        structure,
-        places_of(
-            structure,
-            case.parts,
-            rotation_AB(case.airframe.axes),
-            aircraft.monitoring,
-            case.airframe.model,
-        ),
-        inventory(structure, case.parts.allowables),
-        list(aircraft.monitoring.values()),
-        loads.node_id,
-        averaged=case.transient.scheme == "nastran",
-    )
-
-
-def _respond(
-    case: Case,
-    aircraft: Aircraft,
-    airframe: AirframeModel,
-    loads: list[AttachmentLoads],
-    watch: PartsWatch,
-    envelopes: list[Envelope],
-    stages: Stages,
-) -> dict[str, pd.DataFrame]:
-    """The transient of all load cases; its parts are booked as stages of their own."""
-    seen = [Timed(observer) for observer in watch.observers]
-    extremes = [Timed(envelope) for envelope in envelopes]
-
-    def book(run: TransientRun) -> None:
-        stages.split(
-            {
-                "direct transient: factor": Spent(
-                    wall=run.factor_seconds, processor=run.factor_processor
-                ),
-                "stresses, section loads": sum((o.spent for o in seen), Spent()),
-                "extremes of all results": sum((o.spent for o in extremes), Spent()),
-            }
-        )
-
-    return transient_response(
-        airframe.structure,
-        loads[0],
-        aircraft.monitoring,
-        case.transient.scheme,
-        stages.progress,
-        [*seen, *extremes],
-        loads[1:],
-        book,
     )
 
 
@@ -365,8 +286,7 @@ def write_files(result: ProcessResult, out: Path) -> None:
     write_csv(out / "comparison.csv", result.comparison)
     write_csv(out / "gears.csv", result.gears)
     write_csv(out / "worst_elements.csv", worst_elements(result.envelopes, 10))
-    stress = parts.landing.stress
-    write_csv(out / "worst_stresses.csv", tables.worst_elements(stress, ultimate))
+    write_csv(out / "worst_stresses.csv", tables.worst_elements(parts.judged, ultimate))
     write_csv(out / "section_loads.csv", tables.section_envelopes(parts))
     write_csv(out / "section_roots.csv", tables.root_histories(parts), index=True)
     write_history_csv(

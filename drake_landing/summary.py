@@ -57,7 +57,9 @@ def _at(row: pd.Series, factor: float, unit: str, spec: str) -> str:
 def _acceleration(comparison: pd.DataFrame) -> str:
     row = comparison.iloc[int(np.argmax(comparison["peak_fe"].to_numpy()))]
     where = f"{str(row['point']).replace('_', ' ')}, {row['axis']}"
-    return f"{row['peak_fe']:z.2f} m/s² ({where}; multibody {row['peak_mbs']:z.2f} m/s²)"
+    return (
+        f"{row['peak_fe']:z.2f} m/s² ({where}; multibody {row['peak_mbs']:z.2f} m/s²)"
+    )
 
 
 def _difference(comparison: pd.DataFrame) -> str:
@@ -68,3 +70,15 @@ def _difference(comparison: pd.DataFrame) -> str:
         return "nothing moves"
     low, high = errors.min(), errors.max()
     return f"rms {low:.1%} to {high:.1%} (vertical, all points)"
+
+
+def time_taken(result: "ProcessResult") -> list[str]:
+    """Lines of a table: time, share and memory of each stage."""
+    table = result.stages.table()
+    width = max(map(len, table.stage))
+    head = f"{'':<{width}}      wall  share  processor  peak memory"
+    return [head] + [
+        f"{row.stage:<{width}}  {row.wall:6.1f} s  {row.share:5.0%}  "
+        f"{row.processor:7.1f} s  {row.memory_gb:8.2f} GB"
+        for row in table.itertuples()
+    ]

@@ -34,24 +34,26 @@ def stress_pictures(
     Returns:
         PNG files in `out/pictures` with captions, and a sentence where there are none.
     """
-    components = component_table(found.landing.stress, parts.ultimate_factor)
+    components = component_table(found.judged, parts.ultimate_factor)
     components = components[components.component.isin(list(found.worst))]
     if not len(components):
         return [], ""
     if not can_draw():
         return [], _UNABLE
     up, aft = R_AB[2], R_AB[0]
-    pictures = []
+    pictures: list[tuple[Path, str]] = []
     worst = components.iloc[0]
     snapshot = found.worst[worst.component]
     field = stress_field(structure, stresses, snapshot)
     path = out / "pictures" / "stress_all.png"
     top = draw_field(path, field, close=False, up=up, aft=aft)[1]
+    least = "highest stress" if np.isnan(worst.margin) else "least margin"
+    upon = "" if found.total is None else ", steady flight included"
     pictures.append(
         (
             path,
             f"Equivalent stress at {snapshot.time:.3f} s, when the element with the "
-            f"least margin sees its worst ({worst.component}, element {worst.id}). "
+            f"{least} sees its worst ({worst.component}, element {worst.id}){upon}. "
             f"Displacements times {field.factor:g}, without the motion as a rigid "
             f"body; colours end at {top / 1e6:.0f} MPa, above which are 0.5 % of the "
             "elements.",

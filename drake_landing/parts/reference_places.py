@@ -4,6 +4,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.aircraft.facts import facts, table
+from drake_landing.aircraft.limit_load import LOAD_FACTOR, applied_loads
 from drake_landing.aircraft.reference_axis import reference_nodes
 from drake_landing.parts.cuts import ANY, Beam
 from drake_landing.parts.places import Panel, Places
@@ -38,6 +39,16 @@ def reference_places(structure: Structure, level: str) -> Places:
             beams=_beams(), panels=_panels(structure), equipment=_floor(structure)
         )
     return Places(beams=_beams(), equipment=_axis())
+
+
+def steady_load(structure: Structure) -> Float64:
+    """(f, 1) loads of steady flight at 1 g, which the inertia of the airframe balances.
+
+    The lift is that of the source's limit load case, scaled to the weight; the gears
+    hang on their attachments.
+    """
+    load = applied_loads(structure)[:, None] / LOAD_FACTOR
+    return np.asarray(structure.load(load))
 
 
 def _beams() -> tuple[Beam, ...]:

@@ -66,42 +66,75 @@ def extreme_instants(
     return dict(sorted(found.items()))
 
 
+@dataclass(frozen=True, kw_only=True)
+class Balanced:
+    """Static answers of the free airframe, balanced by rigid inertia.
+
+    Attributes:
+        displacement: (f, c) in mean axes.
+        motion: (f, c) accelerations as a rigid body.
+    """
+
+    displacement: Float64
+    motion: Float64
+
+    def take(self, which: slice) -> "Balanced":
+        """Some of the load cases."""
+        return Balanced(
+            displacement=self.displacement[:, which], motion=self.motion[:, which]
+        )
+
+
+def balanced(structure: Structure, load: Float64) -> Balanced:
+    """Solves load cases (f, c) on the free set with inertia relief, all at once."""
+    found = inertia_relief(
+        structure.stiffness, structure.mass, load, rigid_body=structure.rigid_body
+    )
+    return Balanced(
+        displacement=found.displacement, motion=found.motions @ found.acceleration
+    )
+
+
+def slice_loads(
+    structure: Structure, loads: AttachmentLoads, instants: Mapping[int, str]
+) -> Float64:
+    """(f, s) loads on the free set at instants: rows of the loads."""
+    pattern = structure.operator(loads.node_id, frame="basic")
+    load = loads.load[list(instants)]
+    return np.asarray(pattern.T @ load.reshape(len(load), -1).T)
+
+
 def static_slices(
     structure: Structure,
     loads: AttachmentLoads,
     instants: Mapping[int, str],
+    still: Balanced,
     stresses: Stresses,
     cuts: Mapping[str, BeamCuts],
     grids: Int64,
 ) -> Slices:
-    """Solves the static cases, all at once.
+    """What is looked at in the static cases.
 
     Args:
         structure: the full model, free.
         loads: over time.
         instants: row of the loads -> what is extreme there.
+        still: answers to `slice_loads`.
         stresses, cuts: what is looked at.
         grids: whose accelerations are wanted.
     """
     rows = list(instants)
-    load = loads.load[rows]
-    pattern = structure.operator(loads.node_id, frame="basic")
-    found = inertia_relief(
-        structure.stiffness,
-        structure.mass,
-        pattern.T @ load.reshape(len(rows), -1).T,
-        rigid_body=structure.rigid_body,
-    )
-    motion = found.motions @ found.acceleration
-    moved = structure.operator(grids, (1, 2, 3), frame="basic") @ motion
+    moved = structure.operator(grids, (1, 2, 3), frame="basic") @ still.motion
     moved = moved.T.reshape(len(rows), -1, 3)
     return Slices(
         time=loads.time[rows],
         reason=tuple(instants.values()),
         sections={
-            name: c.loads((c.of_acceleration @ motion).T, loads.node_id, load)
+            name: c.loads(
+                (c.of_acceleration @ still.motion).T, loads.node_id, loads.load[rows]
+            )
             for name, c in cuts.items()
         },
         acceleration={int(g): moved[:, i] for i, g in enumerate(grids)},
-        stress=stresses.of(found.displacement),
+        stress=stresses.of(still.displacement),
     )

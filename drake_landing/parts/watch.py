@@ -46,6 +46,7 @@ class PartsFound:
         cuts: beam -> its cuts.
         places: panels and equipment.
         cases: load cases, the landing itself first.
+        total: stress table of the landing upon steady flight, None: not known.
         worst: component -> displacements when its worst element sees its worst.
         imbalance: force and moment that the equilibrium of the whole airframe misses,
             over the largest applied ones.
@@ -55,6 +56,7 @@ class PartsFound:
     cuts: Mapping[str, BeamCuts]
     places: Places
     cases: tuple[CaseFound, ...]
+    total: pd.DataFrame | None = field(default=None, repr=False)
     worst: Mapping[str, Snapshot] = field(repr=False)
     imbalance: tuple[float, float]
 
@@ -62,6 +64,11 @@ class PartsFound:
     def landing(self) -> CaseFound:
         """The load case of the landing itself."""
         return self.cases[0]
+
+    @property
+    def judged(self) -> pd.DataFrame:
+        """The stress table that margins hold for: upon steady flight where known."""
+        return self.landing.stress if self.total is None else self.total
 
 
 class PartsWatch:
@@ -74,6 +81,7 @@ class PartsWatch:
         grids: further grids whose accelerations are wanted.
         loaded: nodes that loads act on.
         averaged: the scheme applies means of three loads (Nastran's).
+        steady: (f,) displacements of steady flight, None: not known.
     """
 
     def __init__(
@@ -85,14 +93,16 @@ class PartsWatch:
         loaded: Int64,
         *,
         averaged: bool = True,
+        steady: Float64 | None = None,
     ) -> None:
         self.places, self.elements = places, elements
         self.stresses: Stresses = stresses(structure)
         self._averaged = averaged
         self._rows = elements.of(self.stresses.id)
         self.components, group = np.unique(self._rows.component, return_inverse=True)
+        self._steady = steady is not None
         self._stress = StressWatch(
-            self.stresses, group, self._rows.allowed.to_numpy(float)
+            self.stresses, group, self._rows.allowed.to_numpy(float), steady
         )
         node = {int(n): structure.points.xyz[structure.points.rows(n)] for n in loaded}
         self.cuts = {b.name: beam_cuts(structure, b, node) for b in places.beams}
@@ -114,6 +124,34 @@ class PartsWatch:
         moved: list[Observer] = [self._motion]
         return [self._stress, *moved, *([self._velocity] if self._velocity else [])]
 
+    @property
+    def content(self) -> list[object]:
+        """Everything that what it finds depends on, beside loads and matrices."""
+        s = self._stress
+        maps = [part.operator for part in self.stresses.parts]
+        operators = [o.operator for o in (self._motion, self._velocity) if o]
+        return [maps, operators, *s.content]
+
+    def arrays(self) -> dict[str, npt.NDArray]:
+        """All that was found, for `restore`."""
+        found = {f"stress_{k}": v for k, v in self._stress.arrays().items()}
+        for name, seen in self._moved().items():
+            found |= {f"{name}_time": seen.time, name: seen.values}
+        return found
+
+    def restore(self, arrays: Mapping[str, npt.NDArray]) -> None:
+        """Takes over what was found before with the same `content`."""
+        prefix = "stress_"
+        self._stress.restore(
+            {k.removeprefix(prefix): v for k, v in arrays.items() if prefix in k}
+        )
+        for name, seen in self._moved().items():
+            seen.time, seen.values = arrays[f"{name}_time"], arrays[name]
+
+    def _moved(self) -> dict[str, Observation]:
+        both = {"acceleration": self._motion, "velocity": self._velocity}
+        return {name: seen for name, seen in both.items() if seen is not None}
+
     def found(self, loads: Sequence[AttachmentLoads]) -> PartsFound:
         """After the transient, whose load cases these loads are."""
         cases = [self._case(i, load) for i, load in enumerate(loads)]
@@ -126,6 +164,7 @@ class PartsWatch:
             cuts=self.cuts,
             places=self.places,
             cases=tuple(cases),
+            total=self._stresses(-1) if self._steady else None,
             worst=worst,
             imbalance=self._imbalance(loads[0]),
         )
@@ -151,12 +190,16 @@ class PartsWatch:
                 for (name, cuts), part in zip(self.cuts.items(), inertia)
             },
             acceleration={int(g): moved[:, i] for i, g in enumerate(self.grids)},
-            stress=self.stress_table(
-                self._stress.equivalent[case],
-                self._stress.time[case],
-                self._stress.largest[case],
-                self._stress.smallest[case],
-            ),
+            stress=self._stresses(case),
+        )
+
+    def _stresses(self, case: int) -> pd.DataFrame:
+        seen = self._stress
+        return self.stress_table(
+            seen.equivalent[case],
+            seen.time[case],
+            seen.largest[case],
+            seen.smallest[case],
         )
 
     def stress_table(

@@ -27,6 +27,7 @@ _COMPONENT = {
     "elements": "elements",
     "id": "worst element",
     "equivalent": "equivalent MPa",
+    "increment": "landing alone MPa",
     "largest": "largest MPa",
     "smallest": "smallest MPa",
     "time": "time s",
@@ -37,7 +38,7 @@ _COMPONENT = {
     "margin": "margin",
 }
 _FORMATS = {
-    **dict.fromkeys(("equivalent", "largest", "smallest"), ".1f"),
+    **dict.fromkeys(("equivalent", "increment", "largest", "smallest"), ".1f"),
     **dict.fromkeys(("x", "y", "z"), ".2f"),
     **{"time": ".3f", "allowed": ".0f", "margin": "+.2f"},
 }
@@ -65,8 +66,11 @@ def parts_sections(
 def _stresses(
     result: "ProcessResult", pictures: Sequence[Picture], unable: str
 ) -> Section:
-    stress, factor = result.parts.landing.stress, result.case.parts.ultimate_factor
+    factor, total = result.case.parts.ultimate_factor, result.parts.total
+    stress = result.parts.judged
     components = tables.component_table(stress, factor)
+    alone = result.parts.landing.stress.groupby("component").equivalent.max()
+    components["increment"] = alone.loc[components.component].to_numpy()
     worst = tables.worst_elements(stress, factor)
     blocks = [png_block(path, caption) for path, caption in pictures]
     if len(components):
@@ -81,7 +85,7 @@ def _stresses(
                 | {
                     k: v
                     for k, v in _COMPONENT.items()
-                    if k not in ("component", "elements")
+                    if k not in ("component", "elements", "increment")
                 },
                 _FORMATS,
                 "The worst ten elements of each component",
@@ -89,11 +93,15 @@ def _stresses(
             ),
         ]
     text = (
-        "Increments to steady flight in the direct transient, all elements at all "
-        "steps. Equivalent: von Mises of the sheet itself, the larger of both fibres; "
-        "of bars the largest direct stress. Margin of safety: allowable over "
-        f"{factor:g} times the stress, less 1; the stress of steady flight is not in "
-        "it. "
+        "Direct transient, all elements at all steps. Equivalent: von Mises of the "
+        "sheet itself, the larger of both fibres; of bars the largest direct stress. "
+        f"Margin of safety: allowable over {factor:g} times the stress, less 1. "
+    )
+    text += (
+        "The stresses are increments to steady flight. "
+        if total is None
+        else "The stress of steady flight is included; the increment alone stands "
+        "beside it. "
     )
     if not len(components):
         text += "The model has no element with stresses. "
@@ -106,7 +114,8 @@ def _stresses(
 
 
 def _mega(table: pd.DataFrame) -> pd.DataFrame:
-    columns = ["equivalent", "largest", "smallest", "allowed"]
+    columns = ["equivalent", "increment", "largest", "smallest", "allowed"]
+    columns = [c for c in columns if c in table]
     return table.assign(**{c: table[c] / 1e6 for c in columns})
 
 

@@ -11,7 +11,13 @@ from drake_landing.inputs import Aircraft, prepare_aircraft
 from drake_landing.parts.cuts import ANY, Beam, beam_cuts, mean_of_three
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.places import Places, across
-from drake_landing.parts.slices import extreme_instants, static_slices
+from drake_landing.parts.slices import (
+    Slices,
+    balanced,
+    extreme_instants,
+    slice_loads,
+    static_slices,
+)
 from drake_landing.parts.stress import stresses
 from drake_landing.parts.tables import component_table, worst_elements
 from drake_landing.parts.watch import PartsFound, PartsWatch
@@ -92,6 +98,47 @@ def half(loads: AttachmentLoads) -> AttachmentLoads:
     return AttachmentLoads(
         time=loads.time, node_id=loads.node_id, load=0.5 * loads.load
     )
+
+
+def sliced(
+    structure: Structure,
+    loads: AttachmentLoads,
+    instants: dict[int, str],
+    watch: PartsWatch,
+) -> Slices:
+    still = balanced(structure, slice_loads(structure, loads, instants))
+    return static_slices(
+        structure, loads, instants, still, watch.stresses, watch.cuts, watch.grids
+    )
+
+
+def test_stresses_upon_steady_flight_add_up(
+    structure: Structure,
+    aircraft: Aircraft,
+    loads: AttachmentLoads,
+    found: PartsFound,
+    strained: list[Observation],
+) -> None:
+    still = balanced(structure, slice_loads(structure, loads, {100: "peak"}))
+    steady = still.displacement[:, 0]
+    seen = PartsWatch(
+        structure,
+        Places(equipment={}),
+        inventory(structure, {}),
+        [1],
+        loads.node_id,
+        steady=steady,
+    )
+    transient_response(structure, loads, aircraft.monitoring, observers=seen.observers)
+    upon = seen.found([loads])
+    assert upon.total is not None
+    u = strained[0].values[:, 0] + steady
+    highest = seen.stresses.of(u.T)[..., 0].max(axis=0)
+    np.testing.assert_allclose(upon.total.equivalent, highest, rtol=1e-9)
+    assert upon.judged is upon.total
+    alone = seen.stresses.of(strained[0].values[:, 0].T)[..., 0].max(axis=0)
+    np.testing.assert_allclose(upon.landing.stress.equivalent, alone, rtol=1e-9)
+    np.testing.assert_allclose(found.judged.equivalent, alone, rtol=1e-6, atol=1e-3)
 
 
 def test_the_whole_aircraft_is_in_equilibrium(found: PartsFound) -> None:
@@ -218,9 +265,7 @@ def test_practices(
     instants = extreme_instants(loads, GEARS)
     # One instant: all pulses peak together.
     assert len(instants) == 1
-    slices = static_slices(
-        structure, loads, instants, watch.stresses, watch.cuts, watch.grids
-    )
+    slices = sliced(structure, loads, instants, watch)
     done = compare_practices(found, slices, half(loads), aircraft.monitoring)
     by = done.table.set_index(["practice", "quantity"])
     assert (by.loc[HYBRID].error == 0).all()
@@ -235,9 +280,7 @@ def test_practices(
 def test_static_sections_are_what_the_bars_carry(
     structure: Structure, loads: AttachmentLoads, watch: PartsWatch
 ) -> None:
-    slices = static_slices(
-        structure, loads, {100: "peak"}, watch.stresses, watch.cuts, watch.grids
-    )
+    slices = sliced(structure, loads, {100: "peak"}, watch)
     cuts = watch.cuts["wing"]
     ours = cuts.named(slices.sections["wing"])[0, 0]
     pattern = structure.operator(loads.node_id, frame="basic")

@@ -136,8 +136,8 @@ def test_progress_tells_every_stage(stages: Stages, result: ProcessResult) -> No
     booked = {name for name in result.seconds if name not in told}
     assert set(told) | booked == set(result.seconds)
     assert booked == {
-        *("direct transient: factor", "stresses, section loads"),
-        "extremes of all results",
+        *("transient: factorisation", "transient: stresses, section loads"),
+        "transient: extremes of all results",
     }
     table = result.stages.table()
     assert table["share"].iloc[:-1].sum() == pytest.approx(1.0)
@@ -151,9 +151,19 @@ def test_practices_and_a_page_without_pictures(
     monkeypatch.setenv("DRAKE_LANDING_PICTURES", "off")
     can_draw.cache_clear()
     case = variant(("duration: 0.4", "duration: 0.1"), ("step: 5.0e-4", "step: 1.0e-3"))
+    monkeypatch.setenv("DRAKE_LANDING_CACHE", str(tmp_path / "cache"))
     done = run_case(case, tmp_path, practices=True)
+    again = run_case(case, tmp_path, practices=True)
     can_draw.cache_clear()
     assert done.practices is not None
+    assert again.practices is not None
+    # The second run has found the transient.
+    assert "transient: factorisation" in done.seconds
+    assert "transient: factorisation" not in again.seconds
+    pd.testing.assert_frame_equal(again.practices.table, done.practices.table)
+    pd.testing.assert_frame_equal(again.parts.judged, done.parts.judged)
+    for one, other in zip(done.envelopes, again.envelopes):
+        np.testing.assert_array_equal(one.largest, other.largest)
     table = pd.read_csv(tmp_path / "practices.csv")
     assert set(table.kind) == {"acceleration", "section load", "stress"}
     assert table.groupby(["kind", "quantity"]).practice.nunique().eq(3).all()
