@@ -43,12 +43,12 @@ class Cost:
     solve: float
 
 
-def explain(case: Case, out: Path, *, thorough: bool = False) -> str:
+def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> str:
     """What matters first: airframe, gears, scenario, run, files.
 
     Args:
         case: validated.
-        out: folder that a run would write to.
+        out: folder that a run would write to; default out/<name>.
         thorough: factorise however large the airframe is.
 
     Raises:
@@ -69,8 +69,8 @@ def explain(case: Case, out: Path, *, thorough: bool = False) -> str:
         _dry_run(case, aircraft, structure)
     lines = [*_airframe(case, aircraft, structure, cost), *_gears(aircraft)]
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost)]
-    lines.append(_line("files", f"{out}: {', '.join(FILES)}"))
-    notices = (*aircraft.notices, *remarks)
+    lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
+    notices = (*aircraft.notices, *map(case.places.named, remarks))
     notices += (*structure.notices, *structure.damping_notices)
     return "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
 
@@ -150,6 +150,11 @@ def _airframe(
         else f"not factorised ({structure.size} freedoms): mechanisms are found by "
         "check --thorough, or by run",
     )
+    axes = case.airframe.axes
+    yield _line(
+        "",
+        f"flies toward {axes.forward}, up is {axes.up}, units {case.airframe.units}",
+    )
     yield _line("", f"elastic modes '{case.airframe.select}', {case.airframe.basis}")
     points = ", ".join(f"{n} ({grid})" for n, grid in aircraft.monitoring.items())
     yield _line("points", f"{points}: accelerations of both models")
@@ -184,7 +189,11 @@ def _run(case: Case, structure: Structure, cost: Cost | None) -> Iterator[str]:
         f"{steps:.0f} steps of {case.transient.step:g} s of the full model",
     )
     if cost:
-        yield _line("", f"about {_expected(case, structure, cost, steps)} here")
+        yield _line(
+            "",
+            f"about {_expected(case, structure, cost, steps)} here; half a minute more "
+            "where it has never run, for compilation",
+        )
 
 
 def _expected(case: Case, structure: Structure, cost: Cost, steps: float) -> str:

@@ -103,10 +103,10 @@ def gear_remarks(
         mass: of the airframe, kg.
         p_AG: (3,) its centre of gravity in A, m.
     """
+    remarks = _direction_remarks(gears, float(np.asarray(p_AG)[0]))
     loads = static_loads(gears, mass, p_AG)
     if loads is None:
-        return ()
-    remarks = []
+        return tuple(remarks)
     for gear in gears:
         load = loads[gear.name]
         if load <= 0.0:
@@ -118,6 +118,19 @@ def gear_remarks(
         found = (*_gas_remarks(gear, load), *_tyre_remarks(gear, load))
         remarks += [f"gears.{gear.name}.{text}" for text in found]
     return tuple(remarks)
+
+
+def _direction_remarks(gears: Sequence[LandingGear], centre: float) -> list[str]:
+    """Nose gears behind the centre of gravity: the deck may point the other way."""
+    behind = {
+        gear.name: np.mean([axle[0] for axle in gear.axles]) - centre for gear in gears
+    }
+    return [
+        f"airframe.axes.forward: gear {name} lies {away:.3g} m behind the centre of "
+        "gravity, seen in the direction of flight: does the deck point that way?"
+        for name, away in behind.items()
+        if name.startswith("nose") and away > 0.0
+    ]
 
 
 def static_loads(

@@ -58,6 +58,12 @@ def test_static_loads_balance_the_weight():
     assert 0.08 < loads["nose"] / weight < 0.13
 
 
+def test_a_deck_that_points_the_other_way_is_noticed():
+    aft = changed(NOSE, axle=(30.0, 0.0, NOSE.axle[2]))
+    (remark,) = (r for r in _remarks(aft, LEFT, RIGHT) if "forward" in r)
+    assert remark.startswith("airframe.axes.forward: gear nose lies ")
+
+
 def test_one_gear_alone_cannot_carry_an_aircraft():
     assert static_loads([LEFT], BODY.mass, BODY.p_BG) is None
     assert _remarks(LEFT) == ()
