@@ -179,8 +179,9 @@ def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
         group[f"acceleration/{grid}"] = values
     stress = group.create_group("stress")
     table = parts.landing.stress
-    for column in ("id", "equivalent", "time", "largest", "smallest"):
-        stress[column] = table[column].to_numpy()
+    stress["id"] = table["id"].to_numpy(np.int64)  # none where there is no element
+    for column in ("equivalent", "time", "largest", "smallest"):
+        stress[column] = table[column].to_numpy(float)
 
 
 def _write_airframe(group: h5py.Group, body: ModalBody) -> None:

@@ -16,7 +16,11 @@ from fem.points import Points
 
 
 def unconnected_pieces(
-    points: Points, blocks: Iterable[ElementBlock], dependence: sp.csr_matrix, m: Int64
+    points: Points,
+    blocks: Iterable[ElementBlock],
+    dependence: sp.csr_matrix,
+    m: Int64,
+    direct: sp.csr_matrix | None = None,
 ) -> list[Int64]:
     """Grids and scalar points that hang together, the largest piece first.
 
@@ -24,6 +28,7 @@ def unconnected_pieces(
         points: the points.
         blocks: the elements.
         dependence, m: of the elimination: (m, g) and (m,).
+        direct: (g, g) stiffness from direct input.
 
     Returns:
         Ids of the points of each piece that holds an element, ascending.
@@ -42,9 +47,13 @@ def unconnected_pieces(
         keep = (a != b) & np.broadcast_to(first >= 0, at.shape).ravel()
         ends.append((a[keep], b[keep]))
     coupled = dependence.tocoo()
-    a, b = _point(m[coupled.row], grids), _point(coupled.col.astype(np.int64), grids)
-    ends.append((a, b))
-    used[a] = used[b] = True
+    pairs = [(m[coupled.row], coupled.col)]
+    if direct is not None:
+        pairs.append((direct.tocoo().row, direct.tocoo().col))
+    for row, column in pairs:
+        a, b = (_point(dof.astype(np.int64), grids) for dof in (row, column))
+        ends.append((a, b))
+        used[a] = used[b] = True
     row, column = (np.concatenate(part) for part in zip(*ends))
     graph = sp.coo_matrix((np.ones(len(row)), (row, column)), shape=(count, count))
     _, label = connected_components(graph.tocsr(), directed=False)

@@ -80,10 +80,9 @@ def _dmig(matrix: NamedMatrix) -> dict:
 
 
 def _followers(model: ReducedModel) -> list[dict]:
-    """One equation u_r - R u = 0 for each motion of each following grid."""
+    """One equation u_r - R u = 0 for each component that follows."""
     labels, rows = model.labels, []
-    motions = [(g, c) for g in model.followers.tolist() for c in range(1, 7)]
-    for (grid, component), row in zip(motions, model.recovery):
+    for (grid, component), row in zip(model.following.tolist(), model.recovery):
         used = np.flatnonzero(row)
         rows.append(
             {

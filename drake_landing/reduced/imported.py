@@ -1,10 +1,11 @@
 """A user's own reduced matrices as a model.
 
 The interface table (CSV) names the grids: `id, x, y, z` in the basic frame and, where
-not all six are freedoms, `components` (digits; empty: the grid follows the others
-through the recovery matrix). DMIG name their rows; rows of OUTPUT4 and HDF5 stand in
-the order of the table, components ascending, generalised coordinates last. Displacement
-frames of all grids are the basic frame.
+not all six are freedoms, `components` (digits). The others follow through the recovery
+matrix; without one they are held at zero, where the grid has a freedom at all. DMIG
+name their rows; rows of OUTPUT4 and HDF5 stand in the order of the table, components
+ascending, generalised coordinates last. Displacement frames of all grids are the basic
+frame.
 """
 
 from collections.abc import Mapping, Sequence
@@ -69,7 +70,7 @@ def read_reduced(
         interior_hz=np.zeros(0),
         source=", ".join(path.name for path in files),
     )
-    recovery = _recovery(found, names, draft, k, rows, table.id[~kept.any(axis=1)])
+    recovery = _recovery(found, names, draft, k, rows, order, kept)
     free, more = _freed(draft)
     return ReducedModel(
         **{
@@ -217,28 +218,37 @@ def _recovery(
     model: ReducedModel,
     k: NamedMatrix,
     rows: npt.NDArray,
-    table_order: pd.Series,
+    order: npt.NDArray,
+    kept: npt.NDArray,
 ) -> Float64:
-    """(6 r, a + q) of the grids that follow, in ascending order of their ids."""
-    followers = model.followers
-    if not len(followers):
-        return np.zeros((0, model.size))
+    """(r, a + q) of the components that follow, see `ReducedModel.following`.
+
+    Args:
+        found, names: the matrices and their names.
+        model: without it.
+        k: the stiffness as it stands in the file.
+        rows: of unnamed matrices in the model's order.
+        order: rows of the table by ascending grid.
+        kept: (g, 6) in the order of the table.
+    """
+    following = model.following
+    absent = names["recovery"].upper() not in found
+    if len(following) == 0 or (absent and len(model.followers) == 0):
+        return np.zeros((len(following), model.size))
     matrix = _required(found, names["recovery"], "recovery")
     if matrix.rows is not None and matrix.columns is not None and k.rows is not None:
-        wanted = np.array([(g, c) for g in followers for c in range(1, 7)])
         labels = _labels(k, model.grid_id, model.kept, model.size)
         assert labels is not None
-        return _placed(matrix.values, matrix.rows, wanted, matrix.columns, labels)
-    if matrix.values.shape != (6 * len(followers), model.size):
+        return _placed(matrix.values, matrix.rows, following, matrix.columns, labels)
+    if matrix.values.shape != (len(following), model.size):
         raise InputError(
             f"matrices: {matrix.name} is {matrix.values.shape[0]} x "
-            f"{matrix.values.shape[1]}, expected {6 * len(followers)} x {model.size}: "
-            "six rows for each grid of the table without components"
+            f"{matrix.values.shape[1]}, expected {len(following)} x {model.size}: "
+            "a row for each component that the table leaves out"
         )
-    order = np.argsort(table_order.to_numpy(), kind="stable")
-    return (
-        matrix.values[:, rows].reshape(len(order), 6, -1)[order].reshape(-1, model.size)
-    )
+    start = np.concatenate([[0], np.cumsum((~kept).sum(axis=1))])
+    spans = [np.arange(start[g], start[g + 1]) for g in order]
+    return matrix.values[:, rows][np.concatenate(spans).astype(np.intp)]
 
 
 def _freed(model: ReducedModel) -> tuple[Float64, list[str]]:

@@ -101,13 +101,13 @@ def _model(
     kept = np.zeros((len(ids), 6), bool)
     kept[np.searchsorted(ids, points.grid_id[grid]), component] = True
     turn = _to_basic(points.rotation[at], kept, reduction.size, ids)
-    # A grid with some of its freedoms kept has the others from elsewhere: it is
-    # constrained, or they are condensed; only grids without any follow.
-    followers = ids[~kept.any(axis=1)]
+    # Components that are not kept are condensed, dependent, or constrained.
+    partial = ~kept.all(axis=1)
     recovery = np.zeros((0, reduction.size))
-    if len(followers):
-        operator = structure.operator(followers, frame="basic")
+    if partial.any():
+        operator = structure.operator(ids[partial], frame="basic")
         recovery = np.asarray(operator @ reduction.transform) @ turn
+        recovery = recovery[~kept[partial].ravel()]
         recovery[np.abs(recovery) < _NOTHING * np.abs(recovery).max()] = 0.0
 
     def turned(matrix: Float64) -> Float64:

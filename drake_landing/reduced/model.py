@@ -1,8 +1,8 @@
 """A reduced airframe: matrices on interface grids and generalised coordinates.
 
 Rows stand in the order of the grids, for each the components that it keeps, in the
-basic frame; generalised coordinates, which no grid owns, come last. Further grids may
-follow these rows: `recovery` gives their six motions.
+basic frame; generalised coordinates, which no grid owns, come last. Components that are
+no rows follow these: `recovery` gives their motion.
 """
 
 from dataclasses import dataclass
@@ -24,9 +24,9 @@ class ReducedModel:
     Attributes:
         grid_id: (g,) ascending.
         p: (g, 3) positions, basic frame, m.
-        kept: (g, 6) which components are freedoms; none for a grid that follows.
+        kept: (g, 6) which components are freedoms; the others follow.
         stiffness, mass, damping: (a + q, a + q), basic axes.
-        recovery: (6 r, a + q) motion of the r grids that follow, in order.
+        recovery: (r, a + q) motion of the r components that follow, see `following`.
         interior_hz: (q,) frequencies of fixed-interface modes where they are known.
         source: where it comes from.
         notices: what the user should know.
@@ -58,6 +58,12 @@ class ReducedModel:
         """Grids without freedoms of their own."""
         return self.grid_id[~self.kept.any(axis=1)]
 
+    @property
+    def following(self) -> Int64:
+        """(r, 2) grid and component of what is no freedom, in order."""
+        grid, component = np.nonzero(~self.kept)
+        return np.column_stack([self.grid_id[grid], component + 1])
+
     @cached_property
     def generalised_id(self) -> Int64:
         """(q,) scalar point ids of the generalised coordinates."""
@@ -84,7 +90,7 @@ class ReducedModel:
         )
 
     def matrices(self) -> list[NamedMatrix]:
-        """KRED, MRED, BRED and, where grids follow, RRED."""
+        """KRED, MRED, BRED and, where components follow, RRED."""
         labels = self.labels
         square = [
             NamedMatrix(name=name, values=values, rows=labels, columns=labels)
@@ -94,11 +100,10 @@ class ReducedModel:
                 ("BRED", self.damping),
             )
         ]
-        if not len(self.followers):
+        if not len(self.following):
             return square
-        rows = np.array([(g, c) for g in self.followers for c in range(1, 7)])
         recovery = NamedMatrix(
-            name="RRED", values=self.recovery, rows=rows, columns=labels
+            name="RRED", values=self.recovery, rows=self.following, columns=labels
         )
         return [*square, recovery]
 

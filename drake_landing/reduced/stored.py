@@ -14,7 +14,7 @@ from drake_landing.reduced.model import ReducedModel
 from fem.structure import Structure
 
 # Of the program that makes them: entries of another one are never found.
-_VERSION = 1
+_VERSION = 2
 _TABLES = ("mass", "rigid", "modes", "counts")
 _TEXTS = ("source", "notices")
 
