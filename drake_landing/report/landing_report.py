@@ -236,7 +236,7 @@ def _tables(result: "ProcessResult") -> Section:
 def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
     case, body, run = result.case, result.airframe.body, result.history.figures
     sim, tr = case.simulation, case.transient
-    x, y, z = body.p_BG.round(3) + 0.0  # no minus zero
+    x, y, z = result.airframe.R_AB.T @ body.p_BG  # in the frame of the deck
     last = f" up to {body.frequency[-1]:.2f} Hz" if body.n else ""
     topology = result.aircraft.topology
     return [
@@ -247,7 +247,7 @@ def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
         (
             "airframe",
             f"{result.airframe.grids} grids, {body.mass:,.0f} kg without gears, centre "
-            f"of gravity at x {x:.3f}, y {y:.3f}, z {z:.3f} m",
+            f"of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m",
         ),
         ("basis", case.airframe.basis),
         ("elastic modes", f"{body.n} ({case.airframe.select}){last}"),

@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from drake_landing.cases_io import case_text, load_case, parse_case, schema_text
+from drake_landing.explain import explain
 from fem.errors import InputError
 
 CASES = sorted(Path(__file__).parents[2].joinpath("cases").rglob("*.yaml"))
@@ -53,6 +54,14 @@ def test_editors_accept_what_the_program_accepts(name: str) -> None:
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
 def test_schema_fits_the_cases(path: Path) -> None:
     assert by_schema(path.read_text())
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_dry_run_of_a_case_finds_nothing_odd(path: Path) -> None:
+    text = explain(load_case(path))
+    assert "6 rigid-body motions, no mechanism" in text
+    notes = [line for line in text.splitlines() if line.startswith("note:")]
+    assert [note for note in notes if "gears" in note or "axes" in note] == []
 
 
 def test_there_are_cases() -> None:
