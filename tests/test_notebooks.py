@@ -31,6 +31,13 @@ assert table["tyre load / kN"].is_monotonic_increasing
 assert gained > 0 and abs(impulse / gained - 1) < 1e-2
 assert 0.999 < landing["slip"].max() < 1.03
 """,
+    "04_scenarios": """
+assert energy < 1e-4 and momentum < 1e-4
+assert len(table) == 3 * len(PRESETS)
+straight = [n for n, p in PRESETS.items() if p.symmetric]
+assert max(trials[n].audit.symmetry for n in straight) < 1e-6
+assert table["drag ratio"].max() < 0.8 + 1e-6
+""",
     "05_studies": """
 assert combined[2] < by_relevance[3] < by_frequency[3]
 assert budget["formulation"].max() < 5e-3
@@ -64,6 +71,26 @@ assert 0.08 < spun_up < 0.1
 aft = stiffness * landing["aft_x"]
 assert -0.75 < aft.min() / aft.max() < -0.6
 assert run["slip"].iloc[-1] > 0.2  # the last run is the icy one
+""",
+    "04_scenarios": """
+main = table.xs("main_left", level="gear")
+touching = ["three_point", "two_point", "tail_down", "reserve_energy"]
+assert main["drag ratio"][touching].min() > 0.79
+vertical = main["vertical / kN"]
+assert vertical["three_point"] < vertical["two_point"] < vertical["tail_down"]
+assert 1.25 < vertical["reserve_energy"] / vertical["two_point"] < 1.4
+assert table["vertical / kN"]["tail_down"]["nose"] == 0
+one = table["vertical / kN"]["one_gear"]
+assert 1 / 3 < one["main_left"] / one["main_right"] < 0.42
+assert main["side / kN"]["drift"] > 0
+assert vertical["drift"] > 2 * table["vertical / kN"]["drift"]["main_right"]
+left_runway = trials["rebound"].history("main_left")["vertical"]
+assert 0.48 < left_runway.index[left_runway > 0].max() < 0.56
+assert 8 < gravities["main_left"] < 10 and 17 < gravities["nose"] < 20
+bump = trials["taxi_bump"].history("nose")["vertical"]
+assert 0.9 < bump.idxmax() - bump[:0.6].idxmax() < 1.1
+assert 3.5 < table["over static"]["braked_roll"]["nose"] < 4.3
+assert 1.0 < overshoot < 1.15
 """,
     "05_studies": """
 assert rms.loc["count 19"].max() > 0.3
