@@ -8,56 +8,11 @@ import scipy.sparse as sp
 from fem.constraint_forces import ResidualResponse, mpc_gather, spc_gather
 from fem.grid_forces import GridBalance
 from fem.observation import Chunk
-from fem.results import PointLayout
+from fem.results import PointHistory, PointLayout
 from fem.structure import Structure
 from fem.transient_system import TransientLoad
 
 Float64 = npt.NDArray[np.float64]
-
-
-class ConstraintForceHistory:
-    """Writes forces of single-point or of multi-point constraints; see `Observer`.
-
-    Args:
-        file, name: where to write.
-        layout: at which points.
-        response: forces at the rows of the layout, grids first.
-    """
-
-    def __init__(
-        self,
-        file: h5py.File,
-        name: str,
-        layout: PointLayout,
-        response: ResidualResponse,
-    ) -> None:
-        self._file, self._name = file, name
-        self._layout, self._response = layout, response
-        self._datasets: list[h5py.Dataset] = []
-
-    def begin(self, time: Float64, cases: int, size: int) -> None:
-        """Make the datasets."""
-        layout, t = self._layout, len(time)
-        shapes = {self._name: (t, len(layout.grid_id), 6)}
-        if len(layout.scalar_dof):
-            shapes[f"{self._name}_scalar_point"] = (t, len(layout.scalar_dof))
-        self._datasets = [
-            self._file.create_dataset(name, shape, dtype="f8")
-            for name, shape in shapes.items()
-        ]
-
-    def observe(self, chunk: Chunk) -> None:
-        """Write a chunk."""
-        values = self._response.values(chunk)
-        at = slice(chunk.first, chunk.first + len(chunk.time))
-        grids = 6 * len(self._layout.grid_id)
-        self._datasets[0][at] = self._layout.grids(values[:, :grids])
-        for dataset in self._datasets[1:]:
-            dataset[at] = values[:, grids:]
-
-    def memory_bytes(self, times: int, cases: int, size: int) -> int:
-        """Nothing stays in memory."""
-        return 0
 
 
 class LoadHistory:
@@ -106,7 +61,7 @@ def constraint_force_history(
     expand: sp.csr_matrix,
     load: TransientLoad,
     case: int,
-) -> ConstraintForceHistory:
+) -> PointHistory:
     """Observer of forces of single-point ("spc") or multi-point ("mpc") constraints.
 
     Args:
@@ -118,11 +73,10 @@ def constraint_force_history(
         load: on the g-set.
         case: load case.
     """
-    layout.describe(file, name)
     gather = (spc_gather if kind == "spc" else mpc_gather)(model.elimination)
-    rows = np.concatenate([layout.grid_dof, layout.scalar_dof])
-    response = ResidualResponse(model, expand, load, case, sp.csr_matrix(gather[rows]))
-    return ConstraintForceHistory(file, name, layout, response)
+    rows = sp.csr_matrix(gather[layout.dof])
+    response = ResidualResponse(model, expand, load, case, rows)
+    return PointHistory(file, name, layout, response)
 
 
 class GridForceHistory:

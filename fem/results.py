@@ -5,9 +5,10 @@ Histories of transients are written while they are computed.
 """
 
 from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Protocol, Self
 
 import h5py
 import numpy as np
@@ -144,8 +145,9 @@ class ResultFile:
     ) -> "PointHistory":
         """Observer that writes a quantity of points while a transient runs."""
         layout = PointLayout(points, selection)
-        layout.describe(self.file, name)
-        return PointHistory(self.file, name, layout, quantity, expand, case)
+        rows = sp.csr_matrix(expand[layout.dof])
+        response = MotionResponse(quantity=quantity, operator=rows, case=case)
+        return PointHistory(self.file, name, layout, response)
 
     def table_history(self, name: str, response: TableResponse) -> "TableHistory":
         """Observer that writes element results while a transient runs."""
@@ -170,6 +172,11 @@ class PointLayout:
         self.grid_dof = (6 * grid[:, None] + np.arange(6)).reshape(-1)
         self.scalar_dof = 6 * len(points.grid_id) + scalar
 
+    @property
+    def dof(self) -> Int64:
+        """(6 k + s,) all rows, those of the grids first."""
+        return np.concatenate([self.grid_dof, self.scalar_dof])
+
     def grids(self, values: Float64) -> Float64:
         """(..., 6 k) as (..., k, 6)."""
         return values.reshape(*values.shape[:-1], len(self.grid_id), 6)
@@ -192,42 +199,58 @@ def _chosen(ids: Int64, wanted: Int64 | None) -> npt.NDArray[np.intp]:
     return np.flatnonzero(np.isin(ids, wanted))
 
 
+class PointResponse(Protocol):
+    """Something that points have at each output time."""
+
+    def values(self, chunk: Chunk) -> Float64:
+        """(m, r) at the rows of a `PointLayout`, grids first."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionResponse:
+    """A quantity of motion of one load case through an operator (r, n)."""
+
+    quantity: Quantity
+    operator: sp.csr_matrix
+    case: int
+
+    def values(self, chunk: Chunk) -> Float64:
+        """(m, r); see `PointResponse`."""
+        return chunk.get(self.quantity, self.operator)[:, self.case]
+
+
 class PointHistory:
-    """Writes one quantity of points at every output time; see `Observer`."""
+    """Writes what points have at every output time; see `Observer`.
+
+    Args:
+        file, name: where to write.
+        layout: at which points.
+        response: what.
+    """
 
     def __init__(
-        self,
-        file: h5py.File,
-        name: str,
-        layout: PointLayout,
-        quantity: Quantity,
-        expand: sp.csr_matrix,
-        case: int,
+        self, file: h5py.File, name: str, layout: PointLayout, response: PointResponse
     ) -> None:
-        self._file, self._name, self._layout = file, name, layout
-        self._quantity: Quantity = quantity
-        dof = np.concatenate([layout.grid_dof, layout.scalar_dof])
-        self._operator = sp.csr_matrix(expand[dof])
-        self._case = case
+        layout.describe(file, name)
+        self._file, self._name = file, name
+        self._layout, self._response = layout, response
         self._datasets: list[h5py.Dataset] = []
 
     def begin(self, time: Float64, cases: int, size: int) -> None:
         """Make the datasets."""
         layout, t = self._layout, len(time)
-        shape = (t, len(layout.grid_id), 6)
-        self._datasets = [self._file.create_dataset(self._name, shape, dtype="f8")]
+        shapes = {self._name: (t, len(layout.grid_id), 6)}
         if len(layout.scalar_dof):
-            self._datasets.append(
-                self._file.create_dataset(
-                    f"{self._name}_scalar_point",
-                    (t, len(layout.scalar_dof)),
-                    dtype="f8",
-                )
-            )
+            shapes[f"{self._name}_scalar_point"] = (t, len(layout.scalar_dof))
+        self._datasets = [
+            self._file.create_dataset(name, shape, dtype="f8")
+            for name, shape in shapes.items()
+        ]
 
     def observe(self, chunk: Chunk) -> None:
         """Write a chunk."""
-        values = chunk.get(self._quantity, self._operator)[:, self._case]
+        values = self._response.values(chunk)
         at = slice(chunk.first, chunk.first + len(chunk.time))
         grids = 6 * len(self._layout.grid_id)
         self._datasets[0][at] = self._layout.grids(values[:, :grids])

@@ -11,14 +11,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
 from fem.elements.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.beam_stiffness import SectionCompliance, beam_stiffness
-from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
-from fem.elements.dense import DenseBlock, some
-from fem.elements.line_geometry import LineGeometry, congruence
+from fem.elements.block import CENTRE, Detail, Float64, Kind, Recovery
+from fem.elements.line_block import LineBlock
+from fem.elements.line_geometry import congruence
 from fem.elements.orientation import place_lines
 from fem.elements.pins import condense, pin_flags
 from fem.materials import Isotropic, isotropic
@@ -72,49 +71,20 @@ class BarSection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bar(DenseBlock):
+class Bar(LineBlock):
     """All CBAR elements; 12 freedoms, basic axes."""
 
-    pid: Int64
-    geometry: LineGeometry
     section: BarSection
-    material: Isotropic
-    released: npt.NDArray[np.bool_]
 
     property_card = "PBAR"
-
-    @property
-    def extent(self) -> Float64:
-        """(e,) length between the ends."""
-        return self.geometry.length
 
     def with_nonstructural_mass(self, per_length: Float64) -> "Bar":
         """The same bars with additional mass per length (e,)."""
         section = replace(self.section, nsm=self.section.nsm + per_length)
         return replace(self, section=section)
 
-    @cached_property
-    def _map(self) -> Float64:
-        return self.geometry.grid_to_end()
-
-    @cached_property
-    def _uncondensed(self) -> Float64:
+    def _stiffness_at_ends(self) -> Float64:
         return bar_stiffness(self.geometry.length, self.section, self.material)
-
-    @property
-    def end_stiffness(self) -> Float64:
-        """(e, 12, 12) stiffness at the ends in element axes, before pins release."""
-        return self._uncondensed
-
-    @cached_property
-    def _at_ends(self) -> Float64:
-        return condense(self._uncondensed, self.released)[0]
-
-    def stiffness(self) -> Float64:
-        return congruence(self._map, self._at_ends)
-
-    def structural_damping(self) -> Float64 | None:
-        return some(self.material.ge)
 
     def mass(self, *, coupled: bool) -> Float64:
         length = self.geometry.length
@@ -122,7 +92,7 @@ class Bar(DenseBlock):
         if not coupled:
             return congruence(self._map, lumped_mass(length, line))
         at_ends = coupled_mass(length, line)
-        condensed = condense(self._uncondensed, self.released, at_ends)[1]
+        condensed = condense(self.end_stiffness, self.released, at_ends)[1]
         return congruence(self._map, condensed)
 
     @cached_property
@@ -155,15 +125,6 @@ class Bar(DenseBlock):
             matrix=bar_stress_matrix(self.section) @ self._force_matrix,
             id=self.id,
         )
-
-    def strains(self) -> Recovery:
-        """Stresses over Young's modulus."""
-        stress = self.stresses()
-        return replace(stress, matrix=stress.matrix * self._per_modulus)
-
-    @property
-    def _per_modulus(self) -> Float64:
-        return per_modulus(self.material)
 
     def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64:
         """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
@@ -242,12 +203,6 @@ def bar_forces(at_ends: Float64) -> Float64:
     rows += [(1, -1), (2, -1), (0, -1), (3, -1), (7, 1), (8, 1), (6, 1), (9, 1)]
     index, sign = np.array(rows).T
     return sign[:, None] * at_ends[:, index]
-
-
-def per_modulus(material: Isotropic) -> Float64:
-    """(e, 1, 1) 1 / E, 0 where a material has none."""
-    e = material.e
-    return np.divide(1.0, e, out=np.zeros_like(e), where=e != 0.0)[:, None, None]
 
 
 def bending_stress(

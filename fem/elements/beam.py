@@ -12,15 +12,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
-from fem.elements.bar import bar_forces, bending_stress, per_modulus
+from fem.elements.bar import bar_forces, bending_stress
 from fem.elements.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.beam_stiffness import SectionCompliance, beam_stiffness
-from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
-from fem.elements.dense import DenseBlock, some
-from fem.elements.line_geometry import LineGeometry, congruence
+from fem.elements.block import CENTRE, Detail, Float64, Kind, Recovery
+from fem.elements.line_block import LineBlock
+from fem.elements.line_geometry import congruence
 from fem.elements.orientation import place_lines
 from fem.elements.pins import condense, pin_flags
 from fem.materials import Isotropic, isotropic
@@ -72,21 +71,12 @@ class BeamSection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Beam(DenseBlock):
+class Beam(LineBlock):
     """CBEAM elements, prismatic or tapered; 12 freedoms, basic axes."""
 
-    pid: Int64
-    geometry: LineGeometry
     section: BeamSection
-    material: Isotropic
-    released: npt.NDArray[np.bool_]
 
     property_card = "PBEAM"
-
-    @property
-    def extent(self) -> Float64:
-        """(e,) length between the shear centres of the ends."""
-        return self.geometry.length
 
     def with_nonstructural_mass(self, per_length: Float64) -> "Beam":
         """The same beams with additional mass per length (e,)."""
@@ -94,29 +84,9 @@ class Beam(DenseBlock):
         section = replace(self.section, values={**self.section.values, "nsm": nsm})
         return replace(self, section=section)
 
-    @cached_property
-    def _map(self) -> Float64:
-        return self.geometry.grid_to_end()
-
-    @cached_property
-    def _uncondensed(self) -> Float64:
+    def _stiffness_at_ends(self) -> Float64:
         compliance = section_compliance(self.section, self.material)
         return beam_stiffness(self.geometry.length, compliance)
-
-    @property
-    def end_stiffness(self) -> Float64:
-        """(e, 12, 12) stiffness at the ends in element axes, before pins release."""
-        return self._uncondensed
-
-    @cached_property
-    def _at_ends(self) -> Float64:
-        return condense(self._uncondensed, self.released)[0]
-
-    def stiffness(self) -> Float64:
-        return congruence(self._map, self._at_ends)
-
-    def structural_damping(self) -> Float64 | None:
-        return some(self.material.ge)
 
     def mass(self, *, coupled: bool) -> Float64:
         length = self.geometry.length
@@ -125,7 +95,7 @@ class Beam(DenseBlock):
             form(length, line) for line in line_masses(self.section, self.material)
         )
         if coupled:
-            at_ends = condense(self._uncondensed, self.released, at_ends)[1]
+            at_ends = condense(self.end_stiffness, self.released, at_ends)[1]
         return congruence(self._map, at_ends)
 
     @cached_property
@@ -149,18 +119,13 @@ class Beam(DenseBlock):
             id=self.id,
         )
 
-    def strains(self) -> Recovery:
-        """Stresses over Young's modulus."""
-        stress = self.stresses()
-        return replace(stress, matrix=stress.matrix * per_modulus(self.material))
-
     def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64:
         """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
         forces = bar_forces(self.geometry.end_forces())
         if kind == "force":
             return _printed(forces)
         stress = beam_stress_matrix(self.section) @ forces
-        return stress if kind == "stress" else stress * per_modulus(self.material)
+        return stress if kind == "stress" else stress * self._per_modulus
 
 
 @dataclass(frozen=True, kw_only=True)
