@@ -71,7 +71,8 @@ def stress_pictures(
             (
                 path,
                 f"{name.capitalize()} alone, at {snapshot.time:.3f} s, round its worst "
-                f"element {snapshot.element}: {row.equivalent / 1e6:.0f} MPa. "
+                f"element {snapshot.element} (outlined): "
+                f"{row.equivalent / 1e6:.0f} MPa. "
                 f"Displacements times {field.factor:g}.",
             )
         )

@@ -47,7 +47,7 @@ class Field:
         faces, lines: elements -> rows of grids; padded as VTK wants them.
         face_stress, line_stress: Pa per element.
         factor: of the displacements.
-        worst: (3,) middle of the worst element, deformed.
+        worst: (k, 3) corners of the worst element, deformed.
     """
 
     p: Float64
@@ -98,7 +98,7 @@ def stress_field(
     lines, line_id = _cells(structure, _LINES, chosen, stress.index)
     own = [row for row, e in zip((*faces, *lines), (*face_id, *line_id))
            if e == snapshot.element]  # fmt: skip
-    worst = p[own[0]].mean(axis=0) if own else p.mean(axis=0)
+    worst = p[own[0]] if own else p.mean(axis=0)[None]
     return Field(
         p=p,
         faces=_padded(faces),
@@ -161,9 +161,11 @@ def draw_field(
             show_edges=close and width == 1.0,
             edge_opacity=0.3,
             line_width=width,
-            ambient=0.35,
-            diffuse=0.7,
+            ambient=0.65,
+            diffuse=0.4,
         )
+    if close:
+        plotter.add_mesh(_outline(field.worst), color="magenta", line_width=5)
     _look(plotter, field, close=close, up=up, aft=aft)
     path.parent.mkdir(parents=True, exist_ok=True)
     plotter.screenshot(str(path))
@@ -171,37 +173,75 @@ def draw_field(
     return np.array(scale)
 
 
+def _outline(corners: Float64) -> "pyvista.PolyData":
+    """Closed line round an element."""
+    import pyvista
+
+    count = len(corners)
+    ring = [count + 1, *range(count), 0]
+    return pyvista.PolyData(corners, lines=np.array(ring))
+
+
 def _look(
     plotter: "pyvista.Plotter", field: Field, *, close: bool, up: Float64, aft: Float64
 ) -> None:
-    """From ahead, aside and above; a close-up from the side that its element is on."""
-    starboard = np.cross(up, aft)
-    side = 1.0 if field.worst @ starboard >= 0.0 else -1.0
-    high = 0.55
-    used = field.p
-    if close:
-        middle = 0.5 * (used.min(axis=0) + used.max(axis=0))
-        below = (field.worst - middle) @ up < 0.0
-        high = -0.45 if below else 0.6
-    toward = -0.8 * aft + side * starboard + high * up
-    toward /= np.linalg.norm(toward)
+    """From ahead, aside and above; a close-up from outside onto its element."""
+    size = float(np.ptp(field.p, axis=0).max())
+    worst = field.worst.mean(axis=0)
+    toward = _outside(field, up=up, aft=aft, near=_CLOSE * size) if close else None
+    if toward is None:
+        side = 1.0 if worst @ np.cross(up, aft) >= 0.0 else -1.0
+        toward = -0.8 * aft + side * np.cross(up, aft) + 0.55 * up
+    toward = toward / np.linalg.norm(toward)
     right = np.cross(up, toward)
     right /= np.linalg.norm(right)
-    upward = np.cross(toward, right)
-    seen = used @ np.column_stack([right, upward])
-    low, wide = seen.min(axis=0), np.ptp(seen, axis=0)
-    middle = low + 0.5 * wide
-    size = float(np.ptp(used, axis=0).max())
-    focus = middle[0] * right + middle[1] * upward + toward * (used @ toward).mean()
+    seen = field.p @ np.column_stack([right, np.cross(toward, right)])
+    wide = np.ptp(seen, axis=0)
+    middle = seen.min(axis=0) + 0.5 * wide
+    focus = middle[0] * right + middle[1] * np.cross(toward, right)
+    focus += toward * (field.p @ toward).mean()
     half = 0.56 * max(wide[1], wide[0] * SIZE[1] / SIZE[0])
     if close:
-        focus, half = field.worst, _CLOSE * size
+        focus, half = worst, _CLOSE * size
     plotter.enable_parallel_projection()
     plotter.camera.up = tuple(up)
     plotter.camera.focal_point = tuple(focus)
     plotter.camera.position = tuple(focus + 3.0 * size * toward)
     plotter.camera.parallel_scale = half
     plotter.reset_camera_clipping_range()
+
+
+def _outside(field: Field, *, up: Float64, aft: Float64, near: float) -> Float64 | None:
+    """Direction from the worst element away from its neighbourhood, slanted."""
+    used = np.unique(_grids(field.faces))
+    if not len(used):
+        return None
+    corners = field.worst
+    middle, p = corners.mean(axis=0), field.p[used]
+    away = middle - p[np.linalg.norm(p - middle, axis=1) < near].mean(axis=0)
+    if len(corners) == 2:
+        outward = away
+    elif len(corners) == 3:
+        outward = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+    else:
+        outward = np.cross(corners[2] - corners[0], corners[3] - corners[1])
+    outward = outward / max(float(np.linalg.norm(outward)), 1e-12)
+    outward = outward if away @ outward >= 0.0 else -outward
+    starboard = np.cross(up, aft)
+    # Slanted to the side where the element lies, never along the vertical.
+    behind = 1.0 if away @ aft > 0.0 else -1.0
+    side = 1.0 if middle @ starboard >= 0.0 else -1.0
+    return outward + 0.5 * behind * aft + 0.4 * side * starboard
+
+
+def _grids(faces: Int64) -> Int64:
+    """Rows of the grids of padded cells."""
+    rows, at = [], 0
+    while at < len(faces):
+        count = int(faces[at])
+        rows.append(faces[at + 1 : at + 1 + count])
+        at += count + 1
+    return np.concatenate(rows) if rows else np.zeros(0, np.int64)
 
 
 def _rigid_part(structure: Structure, u_f: Float64, p: Float64) -> Float64:
