@@ -28,6 +28,7 @@ Float64 = npt.NDArray[np.float64]
 
 _UNITS = {"shear": "N", "bending": "N m", "torsion": "N m"}
 _ROUNDING = 1e-5
+_SAID = {"acceleration": "acceleration, ", "section load": "", "stress": "stress, "}
 _PRACTICE = {HYBRID: TRANSIENT, RIGID: MULTIBODY, STATIC: INK}
 
 
@@ -198,7 +199,8 @@ def practice_errors(practices: Practices) -> str:
             rows = table[table.practice == practice].set_index(["kind", "quantity"])
             error = np.array([rows.error[q] for q in quantities])
             _bars(axes, place + shift, 100 * error, _PRACTICE[practice], practice)
-        axes.set_yticks(place, [q for _, q in quantities])
+        labels = [f"{_SAID[kind]}{quantity}" for kind, quantity in quantities]
+        axes.set_yticks(place, labels)
         axes.grid(axis="y", visible=False)
         axes.axvline(0.0, color=INK, linewidth=0.8)
         axes.set_ylim(place[-1] - 0.7, 0.7)

@@ -1,0 +1,103 @@
+"""Places and allowables of a case; what is looked at where a case says nothing."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drake_landing.aircraft import write_model
+from drake_landing.cases_io import parse_case
+from drake_landing.parts.inventory import inventory
+from drake_landing.parts.places import places_of
+from drake_landing.parts.reference_places import steady_load
+from drake_landing.parts.settings import Parts
+from drake_landing.parts.slices import balanced
+from fem.deck.reader import read_deck
+from fem.errors import InputError
+from fem.structure import Structure
+
+HERE = Path(__file__).parent
+TEXT = HERE.joinpath("tiny_case.yaml").read_text()
+PARTS = """
+parts:
+  ultimate_factor: 1.25
+  allowables: {1: 2.0e8}
+  beams:
+    - {name: left wing, outward: port, first: -1.0, last: -7.0, count: 4}
+  panels:
+    - {name: middle, grid: 5, beside: [4, 6]}
+  equipment: {seat: 3}
+"""
+
+
+@pytest.fixture(scope="module")
+def structure() -> Structure:
+    return Structure.from_deck(read_deck(HERE / "tiny_aircraft.bdf"))
+
+
+def found(structure: Structure, parts: Parts):
+    return places_of(structure, parts, np.eye(3), {"tail": 9}, None)
+
+
+def test_a_case_names_its_places(structure: Structure) -> None:
+    case = parse_case(TEXT + PARTS, folder=HERE)
+    places = found(structure, case.parts)
+    (beam,) = places.beams
+    assert beam.stations.tolist() == [-1.0, -3.0, -5.0, -7.0]
+    assert beam.across.tolist() == [-1.0, 0.0, 0.0]
+    assert places.panels[0].beside == (4, 6)
+    assert dict(places.equipment) == {"seat": 3}
+    allowed = inventory(structure, case.parts.allowables).elements.allowed
+    assert set(allowed) == {2e8}
+
+
+def test_without_words_everything_is_cut(structure: Structure) -> None:
+    places = found(structure, Parts())
+    assert [b.outward for b in places.beams] == ["starboard", "port", "aft"]
+    assert dict(places.equipment) == {"tail": 9}
+    assert inventory(structure, {}).elements.allowed.isna().all()
+
+
+def test_cuts_follow_the_axes_of_the_deck(structure: Structure) -> None:
+    R_AB = np.array([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
+    places = places_of(structure, Parts(), R_AB, {"tail": 9}, None)
+    aft = places.beams[-1]
+    p = structure.points.xyz @ R_AB.T
+    assert aft.stations.min() > p[:, 0].min()
+    assert aft.stations.max() < p[:, 0].max()
+
+
+def test_places_that_are_not_there_are_named(structure: Structure) -> None:
+    parts = Parts(equipment={"galley": 777})
+    with pytest.raises(InputError, match=r"parts\.equipment: galley: grid 777"):
+        found(structure, parts)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("last: -7.0", "last: 7.0", "must lie port of the first"),
+        ("outward: port", "outward: up", "outward"),
+        ("ultimate_factor: 1.25", "ultimate_factor: 0", "ultimate_factor"),
+        ("beside: [4, 6]", "beside: []", "beside"),
+        ("equipment:", "equipement:", "equipment"),
+    ],
+)
+def test_wrong_places_are_refused(old: str, new: str, said: str) -> None:
+    assert old in PARTS
+    with pytest.raises(InputError, match=said):
+        parse_case(TEXT + PARTS.replace(old, new), folder=HERE)
+
+
+def test_steady_flight_of_the_reference_aircraft_is_balanced(tmp_path: Path) -> None:
+    write_model("con", tmp_path / "con.bdf")
+    model = Structure.from_deck(read_deck(tmp_path / "con.bdf"))
+    places = places_of(model, Parts(), np.eye(3), {}, "con")
+    assert [b.name for b in places.beams] == [
+        *("right wing", "left wing", "forward fuselage", "rear fuselage"),
+    ]
+    still = balanced(model, steady_load(model))
+    # 1 g upward: what the lift gives beside the gears' pull, nothing sideways.
+    rows = model.operator([19002], (1, 2, 3), frame="basic") @ still.motion
+    assert rows[2, 0] == pytest.approx(9.80665, rel=0.01)
+    assert abs(rows[1, 0]) < 1e-6
