@@ -27,6 +27,8 @@ _COLOURS = (
     *("#d4a6c8", "#8cd17d", "#499894", "#f1ce63", "#79706e", "#a0cbe8", "#ff9d9a"),
     *("#86bcb6", "#d37295", "#b6992d", "#fabfd2", "#bab0ac", "#5778a4"),
 )
+_LEGEND = 0.4  # width of the legend over that of a view
+_MOST_NAMES = 32
 DEFORMATION = 0.08  # of the size of the model: largest displacement in a picture
 
 
@@ -36,11 +38,15 @@ def colour(index: int) -> str:
 
 
 def draw_mesh(path: Path, mesh: DrawnMesh) -> None:
-    """Four views, coloured by component, with a legend; rigid elements are left out."""
+    """Four views by component beside a legend; rigid elements are left out."""
     vista = _vista()
     shown = [(k, c) for k, c in enumerate(mesh.components) if c.name != RIGID]
     surfaces = [(k, c, _poly_data(mesh.p, c)) for k, c in shown]
-    plotter = vista.Plotter(off_screen=True, shape=(2, 2), window_size=(2400, 1600))
+    plotter = vista.Plotter(
+        off_screen=True, shape=(2, 3), groups=[(slice(None), 2)],
+        col_weights=[1.0, 1.0, _LEGEND], window_size=(2400, 1300),
+    )  # fmt: skip
+    wide = 2400 / (2.0 + _LEGEND)
     for place, (name, (position, up)) in enumerate(VIEWS.items()):
         plotter.subplot(place // 2, place % 2)
         for k, _, data in surfaces:
@@ -50,14 +56,16 @@ def draw_mesh(path: Path, mesh: DrawnMesh) -> None:
                     edge_opacity=0.25, lighting=True,
                 )  # fmt: skip
         plotter.add_text(name, font_size=9, color="black")
-        _look(plotter, mesh.p, position, up)
-    plotter.subplot(0, 0)
+        _look(plotter, mesh.p, position, up, wide / 650)
+    plotter.subplot(0, 2)
+    plotter.set_background("white")
+    names = shown[:_MOST_NAMES]
     plotter.add_legend(
-        [[c.name, colour(k)] for k, c in shown][:30],
+        [[c.name, colour(k)] for k, c in names],
         bcolor=None,
         face="rectangle",
-        size=(0.24, min(0.95, 0.033 * len(shown[:30]))),
-        loc="upper right",
+        size=(0.98, min(0.96, 0.03 * len(names))),
+        loc="center left",
     )
     _save(plotter, path)
 
@@ -70,7 +78,7 @@ def draw_modes(path: Path, mesh: DrawnMesh, modes: ShownModes, first: int = 10) 
         return
     columns = min(4, count)
     shape = (-(-count // columns), columns)
-    size = (columns * 640, shape[0] * 520)
+    size = (columns * 640, shape[0] * 480)
     plotter = vista.Plotter(off_screen=True, shape=shape, window_size=size)
     drawn = [c for c in mesh.components if c.name != RIGID]
     for k in range(count):
@@ -89,7 +97,7 @@ def draw_modes(path: Path, mesh: DrawnMesh, modes: ShownModes, first: int = 10) 
         words = modes.names[k].replace(": ", "\n", 1)
         title = f"mode {k + 1}: {modes.frequency_hz[k]:.3f} Hz\n{words}"
         plotter.add_text(title, font_size=8, color="black")
-        _look(plotter, mesh.p + u, *VIEWS["perspective"])
+        _look(plotter, mesh.p + u, *VIEWS["perspective"], 640 / 480)
     _save(plotter, path)
 
 
@@ -133,8 +141,9 @@ def _look(
     p: Float64,
     position: Sequence[float],
     up: Sequence[float],
+    aspect: float,
 ) -> None:
-    """Points the camera so that the grids (g, 3) fill the picture."""
+    """Points the camera so that the grids (g, 3) fill a picture, width over height."""
     plotter.set_background("white")
     plotter.enable_parallel_projection()
     plotter.view_vector(position, viewup=up)
@@ -146,9 +155,6 @@ def _look(
     middle = seen.min(axis=0) + 0.5 * np.array([wide, high])
     focus = np.column_stack([right, np.cross(toward, right)]) @ middle
     focus += toward * float((p @ toward).mean())
-    rows, columns = (*plotter.shape, 1)[:2]
-    window = plotter.window_size
-    aspect = (window[0] / columns) / (window[1] / rows)
     distance = 2.0 * float(np.ptp(p, axis=0).max()) + 1e-9
     plotter.camera.focal_point = focus
     plotter.camera.position = focus + distance * toward
