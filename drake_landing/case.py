@@ -109,7 +109,7 @@ class Axes(Section):
 
 
 class Matrices(Section):
-    """Reduced matrices of the user's own, instead of a deck: SI units, basic frame."""
+    """Reduced matrices of the user's own, instead of a deck: basic frame."""
 
     files: tuple[Path, ...] = Field(
         description="DMIG (punch), OUTPUT4 or HDF5 of MSC Nastran, relative to the "
@@ -160,8 +160,8 @@ class Airframe(Section):
     )
     units: UnitSystem = Field(
         default="SI",
-        description="units of the deck: SI (m, kg, N), mm-t-N, or in-lbf (mass in "
-        "lbf s²/in); everything else in a case, gears included, is SI",
+        description="units of the deck, or of the matrices: SI (m, kg, N), mm-t-N, or "
+        "in-lbf (mass in lbf s²/in); all else in a case, gears included, is SI",
     )
     ignore: tuple[str, ...] = Field(
         default=(),
@@ -225,10 +225,9 @@ class Airframe(Section):
             raise ValueError(
                 "give one of `model` (con, pre, full), `deck` (a file) or `matrices`"
             )
-        if self.units != "SI" and self.deck is None:
+        if self.units != "SI" and self.model:
             raise ValueError(
-                f"units: found {self.units}, expected SI: built-in models and matrices "
-                "are in SI; other units are for a deck"
+                f"units: found {self.units}, expected SI: built-in models are in SI"
             )
         if self.fixed_interface_modes.by_relevance:
             raise ValueError(

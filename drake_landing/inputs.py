@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from drake_landing.case import Case, Matrices
+from drake_landing.case import Airframe, Case, Matrices
 from drake_landing.gear import LandingGear
 from drake_landing.scenario import Lift, Scenario
 from fem.deck.deck import Deck
@@ -95,7 +95,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
     if airframe.model is None:
         deck = airframe.deck
         if airframe.matrices is not None:
-            deck, read = _matrices_deck(airframe.matrices, out)
+            deck, read = _matrices_deck(airframe, airframe.matrices, out)
         if deck is None or not deck.is_file():
             raise InputError(f"airframe.deck: {_not_a_file(deck)}")
         assert case.gears != "d150"  # the case sees to it
@@ -156,7 +156,7 @@ def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario
 
 
 def _matrices_deck(
-    matrices: Matrices, out: Path
+    airframe: Airframe, matrices: Matrices, out: Path
 ) -> tuple[Path, Callable[[Path], Deck]]:
     """Grids of a user's matrices as `out/airframe.bdf`, and how to read it.
 
@@ -171,7 +171,8 @@ def _matrices_deck(
     model = read_reduced(matrices.files, matrices.grids, names)
     deck = out / "airframe.bdf"
     write_grids_deck(deck, model)
-    return deck, lambda path: deck_with_matrices(path, model)
+    units = units_of(airframe.units)
+    return deck, lambda path: in_si(deck_with_matrices(path, model), units)
 
 
 def write_model_deck(level: str, path: Path, topology: str | None = None) -> str:

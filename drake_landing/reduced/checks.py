@@ -109,12 +109,12 @@ def _mass_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
     whole = mass_properties(full.T @ (structure.mass @ full))
     own = model.rigid_body(centre)
     small = mass_properties(own.T @ model.mass @ own)
-    rows = [("mass kg", whole[0], small[0])]
+    rows = [("mass", whole[0], small[0])]
     for k, axis in enumerate("xyz"):
         at = centre[k]
-        rows.append((f"centre {axis} m", at + whole[1][k], at + small[1][k]))
+        rows.append((f"centre {axis}", at + whole[1][k], at + small[1][k]))
     for i, j in ((0, 0), (1, 1), (2, 2), (0, 2)):
-        name = f"inertia {'xyz'[i]}{'xyz'[j]} kg m²"
+        name = f"inertia {'xyz'[i]}{'xyz'[j]}"
         rows.append((name, whole[2][i, j], small[2][i, j]))
     table = pd.DataFrame(rows, columns=["quantity", "full", "reduced"])
     scale = np.where(table.quantity.str.startswith("centre"), 1.0, table.full.abs())

@@ -13,6 +13,7 @@ from drake_landing.deck_units import check_units
 from drake_landing.handover import AttachmentLoads
 from drake_landing.inputs import Aircraft, prepare_aircraft
 from drake_landing.process import write_landing_deck
+from drake_landing.reduced.command import reduce_deck
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.solution import run_deck
@@ -89,6 +90,30 @@ def test_wrong_units_are_noticed(
     assert message.startswith("case.yaml:")
     assert "airframe.units: " in message
     assert all(word in message for word in words), message
+
+
+def test_matrices_may_have_units_too(tmp_path: Path) -> None:
+    """Reduced in mm, they are the aircraft that SI reduces to."""
+    bodies = {}
+    for name, units in (("tiny_aircraft", "SI"), ("tiny_aircraft_mm", "mm-t-N")):
+        folder = tmp_path / name
+        options = {"highest_hz": 150.0, "count": 0, "compare_hz": 20.0}
+        grids = "1, 5, 9, 24, 34, 51, 52, 53"
+        reduce_deck(
+            HERE / f"{name}.bdf",
+            folder,
+            basis="craig-bampton",
+            interface=grids,
+            **options,
+        )
+        files = f"files: [{folder / 'reduced.h5'}], grids: {folder / 'grids.csv'}"
+        source = f"matrices: {{{files}}}\n  units: {units}"
+        bodies[units] = loaded(case_of(MM[0], source), tmp_path)[1].body
+    si, mm = bodies["SI"], bodies["mm-t-N"]
+    assert mm.mass == pytest.approx(si.mass, rel=1e-9)
+    assert mm.frequency == pytest.approx(si.frequency, rel=1e-6)
+    a = np.abs(si.rotation)
+    assert np.abs(mm.rotation) == pytest.approx(a, rel=1e-4, abs=1e-5 * a.max())
 
 
 def test_units_are_for_decks(tmp_path: Path) -> None:
