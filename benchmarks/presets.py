@@ -139,7 +139,7 @@ def _row(name: str, preset: Preset, gear: str, peaks: pd.Series, static: float) 
         f"{peaks['vertical'] / static:.2f}",
         f"{peaks['drag'] / 1e3:.0f}",
         drag,
-        f"{-peaks['spring_back'] / 1e3:.0f}",
+        f"{abs(peaks['spring_back']) / 1e3:.0f}",
         f"{abs(peaks['side']) / 1e3:.0f}",
         side.removeprefix("-"),
         f"{peaks['stroke']:.3f}",

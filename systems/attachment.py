@@ -57,25 +57,25 @@ class Gap:
 class Attachment(LeafSystem):
     """Common ports of the ways to attach gears at k nodes; vectors node after node.
 
-    | input port | size | unit | |
+    | port | size | unit | frame and sign |
     |---|---|---|---|
-    | plant_state | nq + nv | | |
-    | generalized_force | nv | | all other forces on the gears, as the plant gets |
-    | spatial_forces | abstract | | them too; none if not connected |
-    | node_pose, node_velocity | 12 k, 6 k | | of the airframe's attachment nodes, W |
-    | node_free_acceleration, node_compliance | 6 k, (6 k)² | | same |
-    | airframe_pose | 7 | | quaternion of R_WB, p_WG |
-
-    | output port | size | unit | |
-    |---|---|---|---|
-    | wrench_on_airframe | 6 k | N m, N | [torque; force] at the nodes, W |
-    | wrench_on_gear | abstract | | the opposite, for the plant |
-    | generalized_force_on_gear | nv | N, N m | or so: the plant gets one of the two |
-    | load_in_airframe_axes | 6 k | N, N m | [force; moment] on the airframe, B |
-    | gap | 12 k | rad, m, 1/s | fitting relative to node: rotation, translation and
+    | in `plant_state` | nq + nv | | positions and velocities of the plant |
+    | in `generalized_force` | nv | N, N m | all other forces on the gears, as the plant
+      gets them |
+    | in `spatial_forces` (optional) | abstract | | these too, as a list |
+    | in `node_pose` | 12 k | -, m | R_WN by rows, p_WN of the airframe's nodes |
+    | in `node_velocity` | 6 k | rad/s, m/s | [angular; linear], W |
+    | in `node_free_acceleration` | 6 k | rad/s², m/s² | the same without the loads, W |
+    | in `node_compliance` | (6 k)² | | acceleration per wrench, W |
+    | in `airframe_pose` | 7 | -, m | quaternion of R_WB, p_WG |
+    | out `wrench_on_airframe` | 6 k | N m, N | [torque; force] at the nodes, W |
+    | out `wrench_on_gear` | abstract | | the opposite on the fittings, for the plant |
+    | out `generalized_force_on_gear` | nv | N, N m | the same; use one of both |
+    | out `load_in_airframe_axes` | 6 k | N, N m | [force; moment] on the airframe, B |
+    | out `gap` | 12 k | rad, m, 1/s | fitting less node: [rotation; translation] and
       their rates, W |
-    | energy | 1 | J | stored in the attachment |
-    | dissipated_power | 1 | W | |
+    | out `energy` | 1 | J | stored in the attachment |
+    | out `dissipated_power` | 1 | W | >= 0 |
 
     Args:
         plant: finalised; the fittings are free bodies on quaternion floating joints.

@@ -111,7 +111,7 @@ def Brake_(T):
         | port | size | unit | frame and sign |
         |---|---|---|---|
         | in `wheel_spin` | 1 | rad/s | wheel against piston, about the axle direction |
-        | in `contact` (optional) | 6 | as `Tire` | read by the anti-skid alone |
+        | in `contact` (optional) | 6 | of `Tire` | read by the anti-skid alone |
         | out `torque` | 1 | N m | on the wheel about the axle direction; the piston |
         |  |  |  | takes the opposite: a joint torque |
         | out `dissipated_power` | 1 | W | >= 0 |

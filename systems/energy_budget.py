@@ -22,12 +22,12 @@ class EnergyBudget(LeafSystem):
     integrator's own stages follow that closely enough. A state is an energy over
     `unit`, so that Drake's absolute error test is a relative one.
 
-    | port | size | unit | |
+    | port | size | unit | meaning and sign |
     |---|---|---|---|
-    | in `plant_state` | nq + nv | | |
+    | in `plant_state` | nq + nv | | positions and velocities of the plant |
     | in `energy_<name>` for each stored | 1 | J | |
-    | in `power_<name>` for each dissipating | 1 | W | |
-    | in `supply_<name>` for each supplying | 1 | W | work of external loads |
+    | in `power_<name>` for each dissipating | 1 | W | lost, >= 0 |
+    | in `supply_<name>` for each supplying | 1 | W | work of external loads, gained |
     | out `dissipated` | 1 | J | integral of all lost powers since the start |
     | out `supplied` | 1 | J | integral of all supplied powers since the start |
     | out `total` | 1 | J | dissipated - supplied + stored + energy of the plant |

@@ -39,29 +39,29 @@ class FlexibleAirframe(LeafSystem):
     State, all in z: p_WG (3, m), quaternion of R_WB (4), v_WG (3, m/s), ω_B (3, rad/s),
     n modal amplitudes and n rates, scaled by `modal_kinematics.mode_scales`.
 
-    With k_a attachment and k_m monitoring nodes. Angular parts come first in spatial
-    vectors, unless said otherwise.
+    With k_a attachment and k_m monitoring nodes; vectors node after node, angular parts
+    first unless said otherwise.
 
-    | input port | size | |
-    |---|---|---|
-    | attachment_wrench | 6 k_a | on the airframe at the nodes, W, N m and N |
-    | external_load | 6 + n | force in W, moment about G in B, modal forces in the
-      amplitudes of the ModalBody; zero if not connected |
-
-    | output port | size | |
-    |---|---|---|
-    | node_pose | 12 k_a | R_WN by rows, p_WN |
-    | node_velocity, node_acceleration | 6 k_a | W |
-    | node_free_acceleration | 6 k_a | W, as if attachment_wrench were zero |
-    | node_compliance | (6 k_a)² | acceleration per wrench, W |
-    | monitor_pose, monitor_velocity | 12 k_m, 6 k_m | W |
-    | monitor_acceleration | 6 k_m | [linear; angular] of the nodes relative to
+    | port | size | unit | frame and sign |
+    |---|---|---|---|
+    | in `attachment_wrench` | 6 k_a | N m, N | on the airframe at the nodes, W |
+    | in `external_load` (optional) | 6 + n | N, N m | force in W, moment about G in B,
+      modal forces in the amplitudes of the ModalBody |
+    | out `node_pose` | 12 k_a | -, m | R_WN by rows, p_WN |
+    | out `node_velocity` | 6 k_a | rad/s, m/s | W |
+    | out `node_acceleration` | 6 k_a | rad/s², m/s² | W |
+    | out `node_free_acceleration` | 6 k_a | rad/s², m/s² | W, as if attachment_wrench
+      were zero |
+    | out `node_compliance` | (6 k_a)² | | acceleration per wrench, W |
+    | out `monitor_pose` | 12 k_m | -, m | R_WN by rows, p_WN |
+    | out `monitor_velocity` | 6 k_m | rad/s, m/s | W |
+    | out `monitor_acceleration` | 6 k_m | m/s², rad/s² | [linear; angular] relative to
       inertial space, in B axes |
-    | pose | 7 | quaternion of R_WB, p_WG |
-    | modal_amplitudes | n | in the amplitudes of the ModalBody |
-    | energy | 1 | kinetic, strain and gravity, J |
-    | dissipated_power | 1 | W |
-    | external_power | 1 | W, of external_load |
+    | out `pose` | 7 | -, m | quaternion of R_WB, p_WG |
+    | out `modal_amplitudes` | n | | in the amplitudes of the ModalBody |
+    | out `energy` | 1 | J | kinetic, strain and gravity |
+    | out `dissipated_power` | 1 | W | of the modes, >= 0 |
+    | out `external_power` | 1 | W | of external_load, into the airframe |
 
     Only node_acceleration and monitor_acceleration depend on attachment_wrench: no
     algebraic loop arises from solving for the wrench with the other ports.

@@ -22,7 +22,7 @@ from systems.lever_strut import LeverStrut
 class GearForces(LeafSystem):
     """Tyre wrenches, strut forces, brake and pitch torques in the plant's own form.
 
-    | port | size | unit | |
+    | port | size | unit | frame and sign |
     |---|---|---|---|
     | in `tire_<wheel>` | 6 | N m, N | [torque; force] on the wheel at its centre, W |
     | in `strut_<gear>` | 1 | N | along the strut, positive apart |

@@ -12,10 +12,10 @@ from systems.flexible_airframe import FlexibleAirframe
 class ModalRecovery(LeafSystem):
     """Recovered quantities R η of a reduced body, for monitoring during a landing.
 
-    | port | size | |
-    |---|---|---|
-    | in `modal_amplitudes` | n | in the amplitudes of the ModalBody |
-    | out `recovered` | c | R η, in the unit of R per unit amplitude |
+    | port | size | unit | meaning |
+    |---|---|---|---|
+    | in `modal_amplitudes` | n | | in the amplitudes of the ModalBody |
+    | out `recovered` | c | that of R | R η |
 
     Column i of R is the quantity in the mode i of the ModalBody (for instance an
     element's stresses in that mode shape). What the truncated modes would contribute

@@ -13,7 +13,7 @@ class SideLoad(LeafSystem):
     The inertia of piston and wheels is left out: at touchdown it takes a part of the
     load of spin-up, so the friction is somewhat too high rather than too low.
 
-    | port | size | unit | |
+    | port | size | unit | frame and sign |
     |---|---|---|---|
     | in `strut_axis` | 3 | | unit vector along the strut, W |
     | in `tire_<wheel>` for each wheel | 6 | N m, N | [torque; force] on it, W |

@@ -22,7 +22,7 @@ Strut = PrismaticJoint | LeverStrut
 class WheelKinematics(LeafSystem):
     """Kinematics of all wheels and struts of an aircraft.
 
-    | port | size | unit | |
+    | port | size | unit | frame and sign |
     |---|---|---|---|
     | in `plant_state` | nq + nv | | positions and velocities of the plant |
     | out `wheel_<name>` | 12 | m, -, m/s, rad/s | p_WC of the wheel centre, axle
