@@ -56,7 +56,17 @@ def test_schema_fits_the_cases(path: Path) -> None:
     assert by_schema(path.read_text())
 
 
-@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+QUICK = [
+    pytest.param(
+        path,
+        id=path.stem,
+        marks=[pytest.mark.slow] if "model: full" in path.read_text() else [],
+    )
+    for path in CASES
+]
+
+
+@pytest.mark.parametrize("path", QUICK)
 def test_dry_run_of_a_case_finds_nothing_odd(path: Path) -> None:
     text = explain(load_case(path))
     assert "6 rigid-body motions, no mechanism" in text
