@@ -153,16 +153,17 @@ def _mark_runs(axes: Axes, study: "Study", topology: str, point: str) -> None:
         axes.plot(row["modes"], row["rms_error"], "o", color=color, markersize=4.5)
 
 
-def budget_bars(study: "Study") -> str:
+def budget_bars(study: "Study", topology: str) -> str:
     """Parts of the difference, run by run, for each point."""
     from drake_landing.studies.tables import BUDGET
 
     points = study.plan.points
     rows = -(-len(points) // 2)
+    budgets = study.budgets[study.budgets["topology"] == topology]
     with panels(rows, 2, height=2.6) as (figure, grid):
         places = [axes for row in grid for axes in row]
         for axes, point in zip(places, points):
-            table = study.budgets[study.budgets["point"] == point]
+            table = budgets[budgets["point"] == point]
             at = np.arange(len(table))
             for k, (part, color) in enumerate(zip((*BUDGET, "feedback"), SERIES)):
                 axes.bar(
@@ -173,14 +174,14 @@ def budget_bars(study: "Study") -> str:
             axes.yaxis.set_major_formatter(_percent)
             axes.set_title(point.replace("_", " "))
             axes.set_xticks(at, [_short(r) for r in table.to_dict("records")])
-            axes.tick_params(axis="x", labelsize=7, labelbottom=True)
+            axes.tick_params(axis="x", labelsize=7, labelrotation=30)
             axes.grid(axis="x", visible=False)
         handles, labels = places[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside upper right", ncols=6)
-        return svg(figure, "error budget")
+        return svg(figure, f"error budget, topology {topology}")
 
 
 def _short(row: dict) -> str:
-    words = {"relevance": "rel.", "pulses": "pulse ", "guyan": "Guyan "}
-    kind = words.get(str(row["selection"]).split()[0], "")
-    return f"T{row['topology'][:1]}\n{kind}{row['modes']}"
+    words = {"relevance": "relevance ", "pulses": "pulses ", "guyan": "Guyan "}
+    kind = words.get(str(row["selection"]).split()[0], "lowest ")
+    return f"{kind}{row['modes']}"

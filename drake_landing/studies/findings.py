@@ -27,7 +27,9 @@ def key_figures(study: "Study") -> list[tuple[str, str]]:
         rows = _vertical(study, selection=selection)
         worst = rows.loc[rows["rms_error"].idxmax()]
         place = f"{worst['point'].replace('_', ' ')}, topology {worst['topology']}"
-        figures.append((f"{selection}: rms", f"{worst['rms_error']:.1%} ({place})"))
+        figures.append(
+            (f"{_words(selection)}: rms", f"{worst['rms_error']:.1%} ({place})")
+        )
     return figures[:9]
 
 
@@ -49,7 +51,7 @@ def findings(study: "Study") -> pd.DataFrame:
                 verdict = "gap closed: rms and peak within 1 %"
             rows.append(
                 (
-                    f"topology {topology}, {selection}",
+                    f"topology {topology}, {_words(selection)}",
                     f"{told}; peak {peak:.1%}",
                     verdict,
                 )
@@ -104,7 +106,8 @@ def _halved(study: "Study") -> list[tuple[str, str, str]]:
             told = ", ".join(f"{y:.2%} against {x:.2%}" for x, y in zip(a, b))
             rows.append(
                 (
-                    f"topology {topology}: {half} as good as {low} at every point",
+                    f"topology {topology}: {_words(half)} as good as {_words(low)}, "
+                    "at every point",
                     told,
                     "yes" if (b.to_numpy() <= a.to_numpy()).all() else "no",
                 )
@@ -131,7 +134,7 @@ def _topologies(study: "Study") -> list[tuple[str, str, str]]:
             rows.append(
                 (
                     f"topology {second} closer than {first}, "
-                    f"{point.replace('_', ' ')}, {selection}",
+                    f"{point.replace('_', ' ')}, {_words(selection)}",
                     f"{b:.2%} against {a:.2%}",
                     "yes" if b < a else "no",
                 )
@@ -149,6 +152,10 @@ def estimate_quality(study: "Study") -> str:
         f"the one found for {good.mean():.0%} of {len(ratio)} points and runs (ratio "
         f"{np.min(ratio):.2f} to {np.max(ratio):.2f})."
     )
+
+
+def _words(selection: str) -> str:
+    return RunName(topology="", selection=selection).words
 
 
 def _vertical(study: "Study", **wanted: str) -> pd.DataFrame:

@@ -24,7 +24,9 @@ def write_pictures(folder: Path, study: "Study") -> list[Path]:
         for name, runs in groups(study).items()
     }
     pictures[f"{study.plan.name}_convergence"] = figures.convergence(study)
-    pictures[f"{study.plan.name}_budget"] = figures.budget_bars(study)
+    for topology in study.plan.topologies:
+        name = f"{study.plan.name}_topology_{topology}_budget"
+        pictures[name] = figures.budget_bars(study, topology)
     paths = []
     for name, svg in pictures.items():
         path = folder / f"{name}.svg"

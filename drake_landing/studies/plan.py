@@ -151,9 +151,10 @@ PLANS = {
             *("count 0", "guyan count 38", "guyan count 95"),
             *("guyan count 192", "guyan count 270"),
             *("below 25 Hz", "below 50 Hz", "below 100 Hz", "below 150 Hz"),
-            *("relevance 95", "pulses 47", "pulses 95"),
+            *("pulses 47", "pulses 95"),
         ),
         candidates=200.0,
+        transient=Transient(step=5e-4),  # a step of 0.25 ms would take half an hour
         counts=(38, 95, 192, 270),
     ),
 }

@@ -163,7 +163,10 @@ def _budget(study: "Study") -> Section:
         "columns are all that the linear modes lack, of the acceleration vector. "
         + estimate_quality(study),
         blocks=[
-            Block(svg=figures.budget_bars(study)),
+            *(
+                Block(svg=figures.budget_bars(study, t), caption=f"topology {t}")
+                for t in study.plan.topologies
+            ),
             table_block(shown, _BUDGET, dict.fromkeys(parts, ".2%")),
         ],
     )
