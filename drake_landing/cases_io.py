@@ -5,6 +5,7 @@ A problem reads `landing.yaml:12: scenario.sink_rte: unknown key; did you mean
 """
 
 import json
+import re
 from pathlib import Path
 from typing import Any, get_args
 
@@ -27,7 +28,13 @@ def load_case(path: Path) -> Case:
     Raises:
         InputError: the file cannot be read, or its content is not a valid case.
     """
-    return parse_case(_read(path), file=str(path), folder=path.parent)
+    text = _read(path)
+    if re.search(r"(?im)^\s*(begin\s+bulk|cend|enddata)", text):
+        raise InputError(
+            f"{path}: is a Nastran deck, expected a case file (YAML), which names the "
+            "deck in airframe.deck"
+        )
+    return parse_case(text, file=str(path), folder=path.parent)
 
 
 def parse_case(text: str, *, file: str = "<case>", folder: Path | None = None) -> Case:

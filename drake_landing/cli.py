@@ -159,6 +159,7 @@ def show(
     from drake_landing.output import claim
     from drake_landing.show import show_model
 
+    _expect_deck(deck)
     folder = claim(out or Path("out", "show", deck.stem), f"show {deck.name}")
     show_model(deck, folder, modes)
 
@@ -213,6 +214,7 @@ def reduce(
     from drake_landing.output import claim
     from drake_landing.reduced.command import reduce_deck
 
+    _expect_deck(deck)
     folder = claim(out or Path("out", "reduce", deck.stem), f"reduce {deck.name}")
     options = {"highest_hz": highest, "count": count, "compare_hz": compare}
     print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
@@ -245,6 +247,15 @@ how far a single mode gets. With the 76 modes below 50 Hz both models agree far 
   drake-landing check cases/d150_con_50hz.yaml    what it does, before it runs
   drake-landing run cases/d150_con_50hz.yaml
   drake-landing model con --out con.bdf           its deck, a start for one of yours"""
+
+
+def _expect_deck(path: Path) -> None:
+    from fem.errors import InputError
+
+    if path.suffix.lower() in (".yaml", ".yml"):
+        raise InputError(f"{path}: is a YAML file, expected a Nastran deck")
+    if not path.is_file():
+        raise InputError(f"{path}: no such file")
 
 
 def _default_folder(case: "Case") -> Path:
@@ -295,7 +306,7 @@ def _status(
     from fem.errors import InputError
 
     try:
-        result = command(args=args, standalone_mode=False)
+        result = command(args=args, prog_name="drake-landing", standalone_mode=False)
     except InputError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

@@ -5,6 +5,7 @@ A folder says in the file `.made-by` whose results it holds.
 
 from pathlib import Path
 
+from fem.aside import written_aside
 from fem.errors import InputError
 
 _MARK = ".made-by"
@@ -30,6 +31,6 @@ def claim(folder: Path, maker: str) -> Path:
             f"--out: {folder} holds the results of '{found}', those of '{maker}' would "
             "overwrite them; give another folder, or delete this one"
         )
-    folder.mkdir(parents=True, exist_ok=True)
-    mark.write_text(maker + "\n", encoding="utf-8")
+    with written_aside(mark) as part:
+        part.write_text(maker + "\n", encoding="utf-8")
     return folder

@@ -132,6 +132,13 @@ def test_bad_decks(
     assert "Traceback" not in message
 
 
+def test_deck_and_case_in_each_others_place(tmp_path: Path, command: Run) -> None:
+    case = written(tmp_path)
+    deck = tmp_path / "tiny_aircraft.bdf"
+    assert f"{deck}: is a Nastran deck, expected a case" in command("run", deck)[2]
+    assert f"{case}: is a YAML file, expected a Nastran" in command("show", case)[2]
+
+
 def test_missing_case_file(tmp_path: Path, command: Run) -> None:
     status, _, message = command("run", tmp_path / "none.yaml")
     assert (status, message) == (2, f"error: {tmp_path}/none.yaml: no such case file\n")
