@@ -123,10 +123,11 @@ MATERIALS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "PSOLID": (("mid",), ("MAT1", "MAT9")),
 }
 
-# Columns that hold grids, per table; a `?` also admits scalar points.
+# Columns that hold grids, per table; a `?` also admits scalar points and the ground, 0;
+# a `-` admits a blank, 0.
 GRIDS: dict[str, str] = {
-    "CBAR": "ga gb g0",
-    "CBEAM": "ga gb g0 sa? sb?",
+    "CBAR": "ga gb g0-",
+    "CBEAM": "ga gb g0- sa? sb?",
     "CROD": "g1 g2",
     "CTUBE": "g1 g2",
     "CELAS1": "g1? g2?",
@@ -136,16 +137,16 @@ GRIDS: dict[str, str] = {
     "CMASS1": "g1? g2?",
     "CMASS2": "g1? g2?",
     "CVISC": "g1 g2",
-    "CBUSH": "ga gb g0",
+    "CBUSH": "ga gb- g0-",
     "CONM1": "g",
     "CONM2": "g",
     "CQUAD4": "g1 g2 g3 g4",
     "CTRIA3": "g1 g2 g3",
     "CSHEAR": "g1 g2 g3 g4",
-    "CHEXA": "nodes",
-    "CPENTA": "nodes",
-    "CTETRA": "nodes",
-    "CPYRAM": "nodes",
+    "CHEXA": "nodes-",
+    "CPENTA": "nodes-",
+    "CTETRA": "nodes-",
+    "CPYRAM": "nodes-",
     "RBE2": "gn gms",
     "RBE3": "refgrid grids umgrids",
     "RBAR": "ga gb",
@@ -162,15 +163,15 @@ GRIDS: dict[str, str] = {
     "FORCE2": "g g1 g2 g3 g4",
     "MOMENT2": "g g1 g2 g3 g4",
     "SLOAD": "id?",
-    "RFORCE": "g",
+    "RFORCE": "g-",
     "ACCEL1": "grids",
     "SPCD": "g?",
     "DAREA": "id?",
     "DELAY": "id?",
     "TIC": "id?",
     "PLOTEL": "g1 g2",
-    "PLOAD": "g1 g2 g3 g4",
-    "PLOAD4": "g1 g34",
+    "PLOAD": "g1 g2 g3 g4-",
+    "PLOAD4": "g1- g34-",
 }
 
 # Columns that hold coordinate systems.

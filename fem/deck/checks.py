@@ -78,14 +78,22 @@ def _flat(values: pd.Series) -> tuple[Int64, Int64]:
 
 
 def _missing(
-    tables: Tables, name: str, column: str, known: Int64, what: str
+    tables: Tables,
+    name: str,
+    column: str,
+    known: Int64,
+    what: str,
+    *,
+    blank: bool = True,
 ) -> list[str]:
-    """References (positive integers) of a column that are not among `known`."""
+    """References of a column that are not among `known`; 0 and below are a `blank`."""
     table = tables[name]
     if table.empty:
         return []
     values, rows = _flat(table[column])
-    bad = (values > 0) & ~np.isin(values, known)
+    bad = ~np.isin(values, known)
+    if blank:
+        bad &= values > 0
     found = list(dict.fromkeys(zip(rows[bad].tolist(), values[bad].tolist())))
     key = table.columns[2]  # the first after file and line
     problems = [
@@ -104,10 +112,12 @@ def _grids(tables: Tables) -> list[str]:
     problems: list[str] = []
     for name, columns in catalogue.GRIDS.items():
         for column in columns.split():
-            scalar = column.endswith("?")
+            scalar, blank = column.endswith("?"), column.endswith(("?", "-"))
             known = points if scalar else grids
             what = "point" if scalar else "grid"
-            problems += _missing(tables, name, column.rstrip("?"), known, what)
+            problems += _missing(
+                tables, name, column.rstrip("?-"), known, what, blank=blank
+            )
     return problems
 
 

@@ -51,6 +51,8 @@ def say(tmp_path, capsys):
         (101, "LOAD=1\nTEMP(LOAD)=3", BAR, "no thermal loads"),
         (101, "LOAD=1", BAR + "MATT1,1,7\n", "do not depend on temperature"),
         (101, "LOAD=1", BAR + "CBARR,1,7\n", "did you mean 'CBAR'?"),
+        (101, "LOAD=1", BAR + "FORCE,1,0,,1.,1.\n", "FORCE 1: grid 0 is not defined"),
+        (101, "LOAD=1", BAR + "CROD,9,1,1,0\n", "CROD 9: grid 0 is not defined"),
     ],
 )
 def test_what_cannot_be_solved_is_named(say, sol, case, bulk, words):
