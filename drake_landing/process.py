@@ -36,6 +36,7 @@ from drake_landing.transient_deck import transient_deck, write_transient_deck
 from fem.deck.units import units_of
 from fem.envelope import Envelope
 from fem.structure import Structure
+from systems.compiled import compiled_before
 from systems.modal_body import ModalBody
 
 
@@ -129,8 +130,9 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         structure,
     )
 
+    first = "" if compiled_before() else "; the first run compiles, half a minute"
     stages.begin(
-        "landing", f"(elastic modes in the multibody model: {airframe.body.n})"
+        "landing", f"(elastic modes in the multibody model: {airframe.body.n}{first})"
     )
     history = _fly(case, aircraft, airframe.body, stages.progress)
     rigid_history = None

@@ -27,6 +27,11 @@ _EDITION = hashlib.sha256(_VOCABULARY).hexdigest()[:8]
 _OPTIONS = {"fastmath": {"reassoc", "contract", "nsz"}, "error_model": "numpy"}
 
 
+def compiled_before() -> bool:
+    """Whether machine code is kept beside the modules; else the first calls compile."""
+    return any(Path(__file__).with_name("__pycache__").glob("*.nbi"))
+
+
 def compiled(function: Callable[P, R]) -> Callable[P, R]:
     """The function, compiled at its first call."""
     # Numba files the machine code under this name.
