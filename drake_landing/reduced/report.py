@@ -64,8 +64,14 @@ def _table(table: pd.DataFrame, formats: Mapping[str, str], real: str) -> str:
         for row in table.itertuples(index=False)
     ]
     widths = [max(len(row[k]) for row in rows) for k in range(len(columns))]
+    words = [table[name].dtype.kind not in "if" for name in columns]
     return "\n".join(
-        "  " + "  ".join(f"{cell:>{w}}" for cell, w in zip(row, widths)) for row in rows
+        "  "
+        + "  ".join(
+            f"{cell:{'<' if left else '>'}{w}}"
+            for cell, w, left in zip(row, widths, words)
+        ).rstrip()
+        for row in rows
     )
 
 
