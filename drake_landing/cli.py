@@ -326,6 +326,9 @@ def _failure(error: BaseException) -> int:
     if (show := getattr(error, "show", None)) is not None:  # usage, from click
         show(file=sys.stderr)
         return 2
+    if getattr(error, "for_users", False):
+        print(f"error: {error}", file=sys.stderr)
+        return 1
     return _internal_failure(error)
 
 

@@ -1,6 +1,7 @@
 """The aircraft of a case: a user's deck with gears, or a built-in reference."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -114,7 +115,8 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
     from drake_landing.aircraft.reference_axis import reference_nodes
 
     out.mkdir(parents=True, exist_ok=True)
-    model = write_model(airframe.model, out / "airframe.bdf", airframe.topology)
+    with _as_field("airframe.topology", "topology: "):
+        model = write_model(airframe.model, out / "airframe.bdf", airframe.topology)
     wing = [reference_nodes()[name].ids for name in ("wing_left", "wing_right")]
     return Aircraft(
         name=model.name,
@@ -130,6 +132,17 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
 def _read(path: Path, ignore: tuple[str, ...], units: str) -> Deck:
     """A deck in SI."""
     return in_si(read_deck(path, ignore=ignore), units_of(units))
+
+
+@contextmanager
+def _as_field(field: str, begin: str) -> Iterator[None]:
+    """Problems are those of a field of the case, instead of what they begin with."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(
+            f"{field}: {text.removeprefix(begin)}" for text in error.problems
+        ) from None
 
 
 def _not_a_file(deck: Path | None) -> str:
@@ -168,7 +181,8 @@ def _matrices_deck(
 
     roles = ("stiffness", "mass", "damping", "recovery")
     names = {role: getattr(matrices, role) for role in roles}
-    model = read_reduced(matrices.files, matrices.grids, names)
+    with _as_field("airframe.matrices", "matrices: "):
+        model = read_reduced(matrices.files, matrices.grids, names)
     deck = out / "airframe.bdf"
     write_grids_deck(deck, model)
     units = units_of(airframe.units)

@@ -43,6 +43,8 @@ _FAST = 4000.0
 class LandingError(RuntimeError):
     """The simulation could not be carried through; says when and what helps."""
 
+    for_users = True  # no failure of the program
+
 
 def build_landing(
     body: ModalBody,

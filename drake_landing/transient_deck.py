@@ -145,8 +145,8 @@ def _load_cards(
             sid += 1
     if not summands:
         raise InputError(
-            "no attachment load is different from zero: the gears do not touch the "
-            "runway within the duration"
+            "simulation.duration: no attachment load is different from zero: the gears "
+            "do not touch the runway within it, expected longer"
         )
     yield from _large("DLOAD", first, 1.0, *summands)
     yield from cards

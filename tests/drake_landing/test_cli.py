@@ -223,6 +223,18 @@ def test_check_finds_what_run_would(
 
 
 LATE = {
+    "topology": (
+        "deck: tiny_aircraft.bdf",
+        "model: con\n  topology: 7",
+        6,
+        "airframe.topology: found '7', expected one of 1, 2",
+    ),
+    "matrices": (
+        "deck: tiny_aircraft.bdf",
+        "matrices: {files: [k.op4], grids: g.csv}",
+        5,
+        "airframe.matrices: ",
+    ),
     "deck": ("deck: tiny_aircraft.bdf", "deck: tiny_aircraft.bd", 5, "airframe.deck"),
     "node": (
         "attachment_node: 52",
