@@ -44,5 +44,4 @@ def make_landing(
         aircraft.gears,
         monitor_nodes=list(aircraft.monitoring.values()),
         energy_budget=energy_budget,
-        brakes=False,
     )

@@ -118,7 +118,7 @@ def MakeLandingDiagram(
     attachment: Literal["rigid", "bushing"] = "rigid",
     gravity: float = 0.0,
     lift: Lift | None = None,
-    brakes: bool = True,
+    brakes: bool = False,
     energy_budget: bool = True,
     log: bool = True,
 ) -> LandingDiagram:
@@ -132,7 +132,7 @@ def MakeLandingDiagram(
         attachment: `rigid`, or `bushing` for elastic fittings.
         gravity: m/s², for airframe and gears; 0 stands for lift equal to weight.
         lift: carried by the airframe, beside gravity.
-        brakes: of gears that have them; False leaves them out, for speed.
+        brakes: applied from the start, on gears that have them; by default none are.
         energy_budget: adds the audit, at a few per cent of the run time.
         log: adds loggers of the signals that reports need.
 

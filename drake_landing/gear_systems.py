@@ -67,7 +67,7 @@ def AddGearSystems(
     gears: Sequence[LandingGear],
     bodies: Mapping[str, GearBodies],
     runway: Runway | None = None,
-    brakes: bool = True,
+    brakes: bool = False,
     connect_plant: bool = True,
 ) -> GearSystems:
     """Adds tyres, shock absorbers and what connects them to a plant.
@@ -84,7 +84,7 @@ def AddGearSystems(
         gears: data of the gears.
         bodies: what AddLandingGear returned for each, by name.
         runway: default flat and dry.
-        brakes: of gears that have them; False leaves them out.
+        brakes: applied from the start, on gears that have them; by default none are.
         connect_plant: False leaves both inputs of the plant to the caller, who may
             then use the port `all_generalized_force`, which holds the tyres' forces.
 

@@ -241,7 +241,7 @@ def test_brake_torque_over_time_slows_the_aircraft():
     brake = {"torque_table": [(0.05, 0.0), (0.1, torque)]}
     nose, *mains = aircraft_gears()
     gears = (nose, *(changed(gear, brake=brake) for gear in mains))
-    landing = MakeLandingDiagram(aircraft_body(0), gears, gravity=9.80665)
+    landing = MakeLandingDiagram(aircraft_body(0), gears, gravity=9.80665, brakes=True)
     run = land(landing, duration=0.4, rolling=40.0)
     found = run["brake_main_left_left.torque"][0]
     assert_allclose(found[run.time > 0.11], torque, rtol=1e-3)
@@ -263,7 +263,9 @@ def test_anti_skid_keeps_the_wheels_turning():
     for name, anti_skid, duration in (("locked", None, 0.06), ("held", skid, 0.15)):
         brake = {"torque": 1.2e5, "anti_skid": anti_skid}
         gears = (nose, *(changed(gear, brake=brake) for gear in mains))
-        landing = MakeLandingDiagram(aircraft_body(0), gears, gravity=9.80665)
+        landing = MakeLandingDiagram(
+            aircraft_body(0), gears, gravity=9.80665, brakes=True
+        )
         runs[name] = land(landing, duration=duration, accuracy=1e-4, rolling=40.0)
     slip = {n: run["tire_main_left_left.contact"][4][-1] for n, run in runs.items()}
     assert slip["locked"] > 0.95
@@ -272,6 +274,12 @@ def test_anti_skid_keeps_the_wheels_turning():
     load = {n: run["tire_main_left_left.contact"][1][-1] for n, run in runs.items()}
     assert_allclose(drag["held"] / load["held"], 0.8, atol=0.05)
     assert drag["locked"] / load["locked"] < 0.6
+
+
+def test_brakes_are_not_applied_unless_asked_for():
+    nose, *mains = aircraft_gears()
+    gears = (nose, *(changed(gear, brake={"torque": 5e4}) for gear in mains))
+    assert MakeLandingDiagram(aircraft_body(0), gears).brakes == {}
 
 
 RAKE = np.radians(9.0)
