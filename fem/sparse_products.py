@@ -47,11 +47,6 @@ class SplitMatrix:
         )
         return cls(diagonal if diagonal.any() else None, rows, columns, compressed)
 
-    @property
-    def is_zero(self) -> bool:
-        """Whether nothing has to be multiplied."""
-        return self.diagonal is None and self.rest.nnz == 0
-
     def dot(self, vectors: Float64) -> Float64:
         """Product with vectors (c, n), one per row; a new array (c, n)."""
         product = (

@@ -96,8 +96,8 @@ def inertia_relief(
 ) -> InertiaRelief:
     """Statics of a free structure (PARAM INREL -1 with SUPORT, -2 without).
 
-    The accelerations a of the rigid-body motions R follow from Rᵀ(P + M R a) ... = 0
-    with inertia forces -M R a; the structure is solved on a determinate support.
+    The accelerations a of the rigid-body motions R follow from Rᵀ(P - M R a) = 0; under
+    loads and inertia forces together the structure is solved on a determinate support.
 
     Args:
         stiffness, mass: (f, f) K and M.

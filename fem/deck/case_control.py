@@ -3,7 +3,7 @@
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
-from typing import Literal, TypeAlias
+from typing import Literal, NamedTuple, TypeAlias
 
 from fem.deck.source import Line
 
@@ -162,36 +162,15 @@ def read_case_control(lines: Iterable[Line], *, refuse: bool = True) -> CaseCont
             elif name == "SET":
                 _define_set(upper, sets)
             elif name == "SUBCASE":
-                current = replace(
-                    default,
-                    id=_number(value),
-                    outputs=dict(default.outputs),
-                    options=dict(default.options),
-                )
-                if any(current.id <= other.id for other in subcases):
-                    raise ValueError("ids of subcases must ascend")
+                current = _new_subcase(default, value, subcases)
                 subcases.append(current)
                 continue
-            elif name[:4] in _TITLES:
-                text = statement.split("=", 1)[-1].strip()
-                current = _set(current, _TITLES[name[:4]], text)
-            elif name in _DIRECT and refuse and value:
-                raise ValueError(
-                    f"{name} is not supported; {_DIRECT[name]}; --ignore CASE goes on "
-                    "without it"
-                )
-            elif name in _NUMBERS:
-                current = _set(current, _NUMBERS[name], _number(value))
-            elif name in _NAMES:
-                current = _set(current, _NAMES[name], value)
-            elif (key := _quantity(name)) is not None:
-                current.outputs[key] = _selection(value, sets)
-                words = (options or "()")[1:-1].split(",")
-                current.options[key] = tuple(w.strip() for w in words if w.strip())
-            elif name in _REFUSED and refuse and not _initial(name, options):
-                raise ValueError(f"{name} is not supported{_WHY.get(name[:4], '')}")
             else:
-                ignored.append(name)
+                words = _Command(name, options, value, statement)
+                found = _carry_out(words, current, sets, refuse=refuse)
+                current = found or current
+                if found is None:
+                    ignored.append(name)
         except ValueError as error:
             result.problems.append(f"{place}: {statement.strip()}: {error}")
         if subcases:
@@ -205,6 +184,63 @@ def read_case_control(lines: Iterable[Line], *, refuse: bool = True) -> CaseCont
         )
     result.subcases = tuple(subcases) or (default,)
     return result
+
+
+class _Command(NamedTuple):
+    """A command as it stands: NAME(OPTIONS) = VALUE, and the whole statement."""
+
+    name: str
+    options: str | None
+    value: str
+    statement: str
+
+
+def _new_subcase(default: Subcase, value: str, others: list[Subcase]) -> Subcase:
+    """A subcase that begins with what stands above all subcases.
+
+    Raises:
+        ValueError: its number is none, or does not ascend.
+    """
+    number = _number(value)
+    if any(number <= other.id for other in others):
+        raise ValueError("ids of subcases must ascend")
+    return replace(
+        default,
+        id=number,
+        outputs=dict(default.outputs),
+        options=dict(default.options),
+    )
+
+
+def _carry_out(
+    command: _Command, current: Subcase, sets: dict[int, Selection], *, refuse: bool
+) -> Subcase | None:
+    """The subcase after a command; None: it has no effect here.
+
+    Raises:
+        ValueError: its value cannot be read; it would change the answer, and nothing
+            here carries it out.
+    """
+    name, options, value, statement = command
+    if name[:4] in _TITLES:
+        return _set(current, _TITLES[name[:4]], statement.split("=", 1)[-1].strip())
+    if name in _DIRECT and refuse and value:
+        raise ValueError(
+            f"{name} is not supported; {_DIRECT[name]}; --ignore CASE goes on "
+            "without it"
+        )
+    if name in _NUMBERS:
+        return _set(current, _NUMBERS[name], _number(value))
+    if name in _NAMES:
+        return _set(current, _NAMES[name], value)
+    if (key := _quantity(name)) is not None:
+        current.outputs[key] = _selection(value, sets)
+        words = (options or "()")[1:-1].split(",")
+        current.options[key] = tuple(w.strip() for w in words if w.strip())
+        return current
+    if name in _REFUSED and refuse and not _initial(name, options):
+        raise ValueError(f"{name} is not supported{_WHY.get(name[:4], '')}")
+    return None
 
 
 def _initial(name: str, options: str | None) -> bool:

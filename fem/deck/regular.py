@@ -13,8 +13,6 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-import numpy as np
-
 from fem.deck.lexer import RawCard
 from fem.deck.values import CONVERTERS, Malformed
 
@@ -166,9 +164,3 @@ def _report_unused(cards: Sequence[RawCard], used: int, notices: list[str]) -> N
             f"{longer[0].place}: {longer[0].name}: fields after number {used} are not "
             f"used ({len(longer)} cards)"
         )
-
-
-def as_array(values: list, kind: str) -> np.ndarray:
-    """A column of one type as an array for a table."""
-    dtype = {"i": np.int64, "f": np.float64}.get(kind, object)
-    return np.array(values, dtype=dtype)

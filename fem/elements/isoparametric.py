@@ -40,8 +40,6 @@ PENTA_CORNERS = np.concatenate(
 )
 TETRA_CORNERS = np.concatenate([np.zeros((1, 3)), np.eye(3)])
 _TETRA_EDGES = np.array([[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]])
-# Corners of the collapsed hexahedron of a pyramid.
-COLLAPSE = np.array([0, 1, 2, 3, 4, 4, 4, 4])
 
 Derivatives = Callable[[Float64], Float64]
 
