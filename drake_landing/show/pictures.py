@@ -76,9 +76,9 @@ def draw_modes(path: Path, mesh: DrawnMesh, modes: ShownModes, first: int = 10) 
     count = min(first, len(modes.names))
     if count == 0:
         return
-    columns = min(4, count)
+    columns = min(5, count)
     shape = (-(-count // columns), columns)
-    size = (columns * 640, shape[0] * 480)
+    size = (columns * 560, shape[0] * 420)
     plotter = vista.Plotter(off_screen=True, shape=shape, window_size=size)
     drawn = [c for c in mesh.components if c.name != RIGID]
     for k in range(count):
@@ -97,7 +97,7 @@ def draw_modes(path: Path, mesh: DrawnMesh, modes: ShownModes, first: int = 10) 
         words = modes.names[k].replace(": ", "\n", 1)
         title = f"mode {k + 1}: {modes.frequency_hz[k]:.3f} Hz\n{words}"
         plotter.add_text(title, font_size=8, color="black")
-        _look(plotter, mesh.p + u, *VIEWS["perspective"], 640 / 480)
+        _look(plotter, mesh.p + u, *VIEWS["perspective"], 560 / 420)
     _save(plotter, path)
 
 
