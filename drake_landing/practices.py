@@ -20,7 +20,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.handover import AttachmentLoads
-from drake_landing.parts.cuts import NAMED, BeamCuts
+from drake_landing.parts.cuts import NAMED
 from drake_landing.parts.slices import Slices
 from drake_landing.parts.watch import PartsFound
 from systems.modal_body import ModalBody
@@ -130,22 +130,19 @@ def _accelerations(
 
 
 def _sections(found: PartsFound, slices: Slices) -> Iterator[Row]:
-    """Shear, bending and torsion at the root of each beam."""
+    """Shear, bending and torsion at the cut of each beam that is looked at."""
     hybrid, rigid_case = found.cases
     for name, cuts in found.cuts.items():
+        at = found.looked_at[name]
         series = {
-            HYBRID: (found.time, _root(cuts, hybrid.sections[name])),
-            RIGID: (found.time, _root(cuts, rigid_case.sections[name])),
-            STATIC: (slices.time, _root(cuts, slices.sections[name])),
+            HYBRID: (found.time, cuts.named(hybrid.sections[name][:, at])),
+            RIGID: (found.time, cuts.named(rigid_case.sections[name][:, at])),
+            STATIC: (slices.time, cuts.named(slices.sections[name][:, at])),
         }
         for q, quantity in enumerate(NAMED):
             of = {practice: (t, v[:, q]) for practice, (t, v) in series.items()}
             unit = "N" if quantity == "shear" else "N m"
             yield from _peaks("section load", f"{name}: {quantity}", unit, of)
-
-
-def _root(cuts: BeamCuts, loads: Float64) -> Float64:
-    return cuts.named(loads[:, :1])[:, 0]
 
 
 def _stresses(found: PartsFound, slices: Slices) -> Iterator[Row]:

@@ -32,6 +32,7 @@ COMPONENTS = ("fx", "fy", "fz", "mx", "my", "mz")
 # What a section load is called along a beam.
 NAMED = ("shear", "bending", "torsion")
 ANY = (-1e9, 1e9)
+EVERYWHERE: Box = (ANY, ANY, ANY)
 _OUTWARD = {
     "aft": (1.0, 0.0, 0.0),
     "fore": (-1.0, 0.0, 0.0),
@@ -57,7 +58,7 @@ class Beam:
     name: str
     outward: str
     stations: Float64
-    boxes: tuple[Box, ...] = ((ANY, ANY, ANY),)
+    boxes: tuple[Box, ...] = (EVERYWHERE,)
     line: Float64 | None = None
     R_AB: Float64 = field(default_factory=lambda: np.eye(3), repr=False)
 

@@ -65,12 +65,15 @@ def stress_pictures(
         snapshot = found.worst[name]
         own = frozenset(by_component.get_group(name).tolist())
         field = stress_field(structure, stresses, snapshot, own)
+        if not len(field.faces):
+            continue  # of sticks the whole shows as much
         path = out / "pictures" / f"stress_{name.replace(' ', '_')}.png"
         draw_field(path, field, close=True, up=up, aft=aft)
         pictures.append(
             (
                 path,
-                f"{name.capitalize()} alone, at {snapshot.time:.3f} s, round its worst "
+                f"{name[:1].upper()}{name[1:]} alone, at {snapshot.time:.3f} s, round "
+                "its worst "
                 f"element {snapshot.element} (outlined): "
                 f"{row.equivalent / 1e6:.0f} MPa. "
                 f"Displacements times {field.factor:g}.",

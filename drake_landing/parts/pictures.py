@@ -130,6 +130,7 @@ def draw_field(
     vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
     plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
     plotter.set_background("white")
+    sticks = close or not len(field.faces)
     every = np.concatenate([field.face_stress, field.line_stress])
     top = float(np.quantile(every, _TOP)) if not close else float(every.max())
     scale = (0.0, max(top, 1.0))
@@ -147,7 +148,7 @@ def draw_field(
     }
     for data, stress, width in (
         (_poly(field.p, faces=field.faces), field.face_stress, 1.0),
-        (_poly(field.p, lines=field.lines), field.line_stress, 3.0 if close else 1.2),
+        (_poly(field.p, lines=field.lines), field.line_stress, 3.0 if sticks else 1.2),
     ):
         if not len(stress):
             continue

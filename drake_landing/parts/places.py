@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.parts import settings
-from drake_landing.parts.cuts import ANY, Beam
+from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam
 from fem.errors import InputError
 from fem.structure import Structure
 
@@ -121,6 +121,6 @@ def _beam(beam: settings.Beam, R_AB: Float64) -> Beam:
         name=beam.name,
         outward=beam.outward,
         stations=np.linspace(beam.first, beam.last, beam.count),
-        boxes=boxes or ((ANY, ANY, ANY),),
+        boxes=boxes or (EVERYWHERE,),
         R_AB=R_AB,
     )

@@ -64,10 +64,11 @@ def section_envelopes(found: PartsFound) -> pd.DataFrame:
 
 
 def root_histories(found: PartsFound) -> pd.DataFrame:
-    """Shear, bending and torsion at the first cut of each beam over time."""
+    """Shear, bending and torsion over time at the cut that is looked at."""
     columns = {}
     for name, cuts in found.cuts.items():
-        named = cuts.named(found.landing.sections[name][:, :1])[:, 0]
+        at = found.looked_at[name]
+        named = cuts.named(found.landing.sections[name][:, at])
         for q, quantity in enumerate(NAMED):
             columns[f"{name} {quantity}"] = named[:, q]
     return pd.DataFrame(columns, index=pd.Index(found.time, name="time"))

@@ -9,7 +9,13 @@ import pandas as pd
 import scipy.sparse as sp
 
 from drake_landing.handover import AttachmentLoads
-from drake_landing.parts.cuts import Beam, BeamCuts, beam_cuts, mean_of_three
+from drake_landing.parts.cuts import (
+    EVERYWHERE,
+    Beam,
+    BeamCuts,
+    beam_cuts,
+    mean_of_three,
+)
 from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.places import Places
 from drake_landing.parts.stress import Stresses, stresses
@@ -64,6 +70,20 @@ class PartsFound:
     def landing(self) -> CaseFound:
         """The load case of the landing itself."""
         return self.cases[0]
+
+    @property
+    def looked_at(self) -> dict[str, int]:
+        """Beam -> the cut that is looked at over time.
+
+        The first, which is the root; where the whole airframe is cut, that with the
+        largest bending moment.
+        """
+        found = {}
+        for name, cuts in self.cuts.items():
+            bending = cuts.named(self.landing.sections[name])[..., 1]
+            largest = int(np.abs(bending).max(axis=0).argmax())
+            found[name] = largest if cuts.beam.boxes == (EVERYWHERE,) else 0
+        return found
 
     @property
     def judged(self) -> pd.DataFrame:

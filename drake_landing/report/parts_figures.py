@@ -69,7 +69,6 @@ def section_envelopes(
     """
     named = _without_rounding(cuts.named(loads))
     beam = cuts.beam
-    along = {"aft": "x", "fore": "x"}.get(beam.outward, "y")
     with panels(1, 3, height=2.3) as (figure, grid):
         for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
             values = named[..., q]
@@ -83,7 +82,7 @@ def section_envelopes(
             label, then = f"at {time[instant]:.3f} s", factor * values[instant]
             curve(axes, beam.stations, then, INK, label, dashed=True)
             name = f"{beam.name}: {quantity}"
-            finish(axes, name, unit, x=f"station {along}, m")
+            finish(axes, name, unit, x=f"station {along(cuts)}, m")
             if not np.any(values):
                 axes.set_ylim(-1.0, 1.0)
         legend(figure, grid[0][0])
@@ -93,12 +92,14 @@ def section_envelopes(
 def root_histories(
     cuts: BeamCuts, found: PartsFound, practices: Practices | None
 ) -> str:
-    """Section loads at the first cut over time, with those of the other practices."""
+    """Section loads over time at one cut, with those of the other practices."""
     name = cuts.beam.name
+    at = found.looked_at[name]
+    where = f"{along(cuts)} = {cuts.beam.stations[at]:.2f} m"
     with panels(1, 3, height=2.2) as (figure, grid):
         cases = list(zip((HYBRID, RIGID), found.cases))
         roots = [
-            _without_rounding(cuts.named(case.sections[name][:, :1])[:, 0])
+            _without_rounding(cuts.named(case.sections[name][:, at]))
             for _, case in cases
         ]
         for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
@@ -108,7 +109,7 @@ def root_histories(
                 label = practice if practices else "direct transient"
                 curve(axes, found.time, factor * values, _PRACTICE[practice], label)
             if practices:
-                of = cuts.named(practices.slices.sections[name][:, :1])[:, 0, q]
+                of = cuts.named(practices.slices.sections[name][:, at])[:, q]
                 axes.plot(
                     practices.slices.time,
                     factor * of,
@@ -118,12 +119,17 @@ def root_histories(
                     color=INK,
                     label=STATIC,
                 )
-            finish(axes, f"{name}, first cut: {quantity}", unit)
+            finish(axes, f"{where}: {quantity}", unit)
             axes.set_xlim(found.time[0], found.time[-1])
             if not np.any(histories[0]):
                 axes.set_ylim(-1.0, 1.0)
         legend(figure, grid[0][0])
-        return svg(figure, f"section loads at the first cut of the {name}")
+        return svg(figure, f"section loads over time, {name}")
+
+
+def along(cuts: BeamCuts) -> str:
+    """Axis along which the cuts lie."""
+    return "x" if cuts.beam.outward in ("aft", "fore") else "y"
 
 
 def _without_rounding(named: Float64) -> Float64:

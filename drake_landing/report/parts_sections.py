@@ -9,7 +9,6 @@ import pandas as pd
 
 from drake_landing.comparison import shock_response_spectrum
 from drake_landing.parts import tables
-from drake_landing.parts.cuts import BeamCuts
 from drake_landing.practices import HYBRID, RIGID, STATIC, Practices
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
@@ -73,18 +72,21 @@ def _stresses(
     components["increment"] = alone.loc[components.component].to_numpy()
     worst = tables.worst_elements(stress, factor)
     blocks = [png_block(path, caption) for path, caption in pictures]
+    unknown = {"increment"} if total is None else set()
+    unknown |= {"allowed", "margin"} if components.margin.isna().all() else set()
+    heads = {k: v for k, v in _COMPONENT.items() if k not in unknown}
     if len(components):
         blocks += [
             Block(svg=figures.stress_bars(components)),
             table_block(
-                _mega(components), _COMPONENT, _FORMATS, "Worst element per component"
+                _mega(components), heads, _FORMATS, "Worst element per component"
             ),
             table_block(
                 _mega(worst),
                 {"component": "component", "rank": "no."}
                 | {
                     k: v
-                    for k, v in _COMPONENT.items()
+                    for k, v in heads.items()
                     if k not in ("component", "elements", "increment")
                 },
                 _FORMATS,
@@ -131,7 +133,8 @@ def _section_loads(result: "ProcessResult") -> Section:
             left_out.append(f"the {name} sees the same as the {twin}, mirrored")
             continue
         shown.append((name, named))
-        worst = int(np.argmax(np.abs(cuts.named(loads)[:, 0, 1])))
+        bending = cuts.named(loads)[:, found.looked_at[name], 1]
+        worst = int(np.argmax(np.abs(bending)))
         blocks += [
             Block(svg=figures.section_envelopes(cuts, found.time, loads, worst)),
             Block(svg=figures.root_histories(cuts, found, result.practices)),
@@ -144,7 +147,7 @@ def _section_loads(result: "ProcessResult") -> Section:
         text="Resultant of the gears' loads and of the inertia of everything beyond "
         "the cut, from the masses of the full model and its accelerations. Shear is "
         "upward, bending lifts the outer end, torsion turns about the outward "
-        "direction. Shaded: extremes over time; dashed: when bending at the first cut "
+        "direction. Shaded: extremes over time; dashed: when bending at the cut below "
         "is largest. The equilibrium of the whole airframe is missed by "
         f"{found.imbalance[0]:.0e} of the largest applied force and "
         f"{found.imbalance[1]:.0e} of the moment.{also} All six components: "
@@ -158,9 +161,10 @@ def _alike(a: np.ndarray, b: np.ndarray) -> bool:
 
 
 def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
-    """Extremes at the first cuts."""
+    """Extremes at the cuts that are looked at over time."""
     table = tables.section_envelopes(result.parts)
-    first = [_first(result.parts.cuts[name]) for name in names]
+    at = result.parts.looked_at
+    first = [float(result.parts.cuts[n].beam.stations[at[n]]) for n in names]
     keep = [
         (row.beam, row.station) in set(zip(names, first)) for row in table.itertuples()
     ]
@@ -169,7 +173,7 @@ def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
     table[kilo] = table[kilo] / 1e3
     heads = {
         "beam": "beam",
-        "station": "first cut m",
+        "station": "cut m",
         "quantity": "quantity",
         "min": "least kN, kNm",
         "time_of_min": "at s",
@@ -178,11 +182,7 @@ def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
     }
     formats = {"station": ".2f", "min": ".1f", "max": ".1f"}
     formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
-    return table_block(table, heads, formats, "Extremes at the first cuts")
-
-
-def _first(cuts: BeamCuts) -> float:
-    return float(cuts.beam.stations[0])
+    return table_block(table, heads, formats, "Extremes at these cuts")
 
 
 def _panels(result: "ProcessResult") -> Section:
