@@ -136,8 +136,12 @@ def opensees(size: Size, python: str | None) -> Figures | None:
         script.write_text(_SCRIPT)
         answer = subprocess.run(
             [python, str(script), str(data), str(STEP), str(STEPS)],
-            check=True,
             capture_output=True,
             text=True,
+        )
+    if answer.returncode:
+        raise RuntimeError(
+            f"{python} could not run OpenSees (it needs openseespy and numpy): "
+            f"{answer.stderr.strip()[-500:]}"
         )
     return json.loads(answer.stdout.splitlines()[-1])
