@@ -4,6 +4,7 @@ Exit status 0 on success, 2 on bad input (one message, no traceback), 1 on an in
 failure.
 """
 
+import os
 import sys
 import traceback
 from collections.abc import Callable
@@ -181,8 +182,13 @@ def _status(arguments: list[str] | None) -> int:
         if isinstance(error, OSError | MemoryError):
             print(f"error: {_system_problem(error)}", file=sys.stderr)
             return 2 if isinstance(error, OSError) else 1
-        traceback.print_exc()
-        print("error: internal failure (please report it)", file=sys.stderr)
+        print(
+            f"internal failure: {type(error).__name__}: {error}\n"
+            "(set DRAKE_LANDING_TRACEBACK=1 for the traceback)",
+            file=sys.stderr,
+        )
+        if os.environ.get("DRAKE_LANDING_TRACEBACK"):
+            traceback.print_exc()
         return 1
     if status == 130:
         print("interrupted", file=sys.stderr)
