@@ -71,6 +71,18 @@ def test_page_compares_with_other_solvers():
     assert [round(value, 6) for _, value, _ in ratios(kept)] == [20.0]
     assert "20" in page(kept)
     assert "| step | ms per step (processor) | 100 |" in table(kept)
+    assert "MISSED" not in page(kept)
+
+
+def test_page_says_why_a_ratio_is_missed():
+    kept = {
+        "step": {"ms per step (processor)": 80.0, "bound, ms (processor)": 55.0},
+        "opensees": {"s per step (processor)": 0.8},
+    }
+    text = page(kept)
+    assert "| 10 | at least 15: MISSED |" in text
+    assert "80 ms, of which 55 ms are the two reads" in text
+    assert "would be 53 ms" in text
 
 
 def test_input_of_calculix_has_all_shells():
