@@ -119,8 +119,8 @@ def _introduce(structure: Structure, options: Options) -> None:
         f"{structure.size} free of {points.size} freedoms"
     )
     # Rounding of sums that cancel is no information, nor is the sign of a zero.
-    x, y, z = _rounded(weight.center, np.abs(points.xyz).max(initial=0.0))
-    i = _rounded(weight.inertia, np.abs(weight.inertia).max(initial=0.0))
+    x, y, z = _without_rounding(weight.center, np.abs(points.xyz).max(initial=0.0))
+    i = _without_rounding(weight.inertia, np.abs(weight.inertia).max(initial=0.0))
     console.say(
         f"mass {weight.total:.7g}, centre of gravity {x:.7g} {y:.7g} {z:.7g}, inertia "
         f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
@@ -132,6 +132,6 @@ def _introduce(structure: Structure, options: Options) -> None:
         console.say(structure.quality.to_string(index=False, float_format="%.4g"))
 
 
-def _rounded(values: Float64, scale: float) -> Float64:
+def _without_rounding(values: Float64, scale: float) -> Float64:
     """Values without those that are rounding beside a scale."""
     return np.where(np.abs(values) > 1e-12 * scale, values, 0.0)

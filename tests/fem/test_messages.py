@@ -1,5 +1,7 @@
 """What a run says: AUTOSPC, pieces, mechanisms, ignored cards, shapes, progress."""
 
+import re
+
 import h5py
 import pytest
 
@@ -81,6 +83,15 @@ def test_what_a_user_should_know_is_said(say, sol, case, bulk, words):
     status, text = say(sol, case, bulk)
     assert status == 0, text
     assert words in text
+
+
+def test_options_without_effect_are_said(say):
+    options = ("--envelope", "--ignore", "CBEND")
+    status, text = say(103, "METHOD=1\nSPC=1", BAR + "EIGRL,1,,,3\n", *options)
+    assert status == 0
+    assert "notice: --envelope has no effect: no subcase is a transient" in text
+    assert "notice: to be ignored, but not in the deck: CBEND" in text
+    assert not re.search(r"(^|[ ,])-0(\.0*)?([ ,]|$)", text, re.MULTILINE)
 
 
 def test_ignored_cards_are_recorded(say, tmp_path):
