@@ -39,8 +39,9 @@ from benchmarks.point_wheels import PointWheel, PointWheels
 from systems.flexible_airframe import FlexibleAirframe
 from systems.gas_spring import GasSpring
 from systems.modal_body import ModalBody
-from systems.shock_absorber import ShockAbsorber, ShockAbsorberParameters
+from systems.shock_absorber import ShockAbsorber
 from systems.slip import SineSlip
+from systems.strut_law import ShockAbsorberParameters
 from systems.table import Table
 from systems.tire import Tire
 from systems.tire_law import TireParameters

@@ -20,8 +20,8 @@ from drake_landing.gear_parameters import (
     tire_parameters,
 )
 from systems.runway import Runway
-from systems.shock_absorber import StrutLaw
 from systems.slip import secant
+from systems.strut_law import StrutLaw
 from systems.tire_law import TireLaw
 
 Float64 = npt.NDArray[np.float64]

@@ -19,7 +19,7 @@ from fem.errors import InputError
 from fem.structure import Structure
 from systems.lever_strut import LeverGeometry
 from systems.runway import Runway
-from systems.shock_absorber import StrutLaw
+from systems.strut_law import StrutLaw
 from systems.tire_law import TireLaw
 
 Float64 = npt.NDArray[np.float64]

@@ -6,8 +6,8 @@ from drake_landing.gear_parts import Brake, PitchDamper, ShockAbsorber, Tyre
 from systems.bogie_pitch import BogiePitchParameters
 from systems.brake import AntiSkid, BrakeParameters
 from systems.gas_spring import GasSpring, SecondChamber
-from systems.shock_absorber import ShockAbsorberParameters
 from systems.slip import SineSlip, TabulatedSlip
+from systems.strut_law import ShockAbsorberParameters
 from systems.table import Table
 from systems.tire_law import TireParameters
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from benchmarks.verification.row import Row, figure
 from systems.gas_spring import GasSpring
-from systems.shock_absorber import ShockAbsorberParameters
+from systems.strut_law import ShockAbsorberParameters
 from systems.table import Table
 from systems.tire_law import TireParameters, inflated_stiffness
 from tests.systems.drop_rig import Rig, drop

@@ -8,7 +8,7 @@ import pytest
 
 from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
 from drake_landing.initial_state import attitude
-from systems.shock_absorber import ShockAbsorberTunables
+from systems.strut_law import ShockAbsorberTunables
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import NOSE_TIP, aircraft_body

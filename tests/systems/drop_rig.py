@@ -16,7 +16,8 @@ from pydrake.systems.framework import BasicVector, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import LogVectorOutput
 
 from systems.runway import Runway
-from systems.shock_absorber import ShockAbsorber, ShockAbsorberParameters
+from systems.shock_absorber import ShockAbsorber
+from systems.strut_law import ShockAbsorberParameters
 from systems.tire import Tire
 from systems.tire_law import TireParameters
 

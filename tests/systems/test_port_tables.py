@@ -21,8 +21,9 @@ from systems.gas_spring import GasSpring
 from systems.gear_forces import GearForces
 from systems.lever_strut import LeverStrut
 from systems.modal_recovery import ModalRecovery
-from systems.shock_absorber import ShockAbsorber, ShockAbsorberParameters
+from systems.shock_absorber import ShockAbsorber
 from systems.side_load import SideLoad
+from systems.strut_law import ShockAbsorberParameters
 from systems.tire import Tire
 from systems.tire_law import TireParameters
 from systems.wheel_kinematics import WheelKinematics

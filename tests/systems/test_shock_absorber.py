@@ -11,12 +11,8 @@ from pydrake.autodiffutils import InitializeAutoDiff
 
 from systems.friction import bearing_reactions
 from systems.gas_spring import GasSpring, SecondChamber, series_split
-from systems.shock_absorber import (
-    ShockAbsorber,
-    ShockAbsorberParameters,
-    ShockAbsorberTunables,
-    StrutLaw,
-)
+from systems.shock_absorber import ShockAbsorber
+from systems.strut_law import ShockAbsorberParameters, ShockAbsorberTunables, StrutLaw
 from systems.table import Table
 
 ONE_CHAMBER = GasSpring(precharge=45e3, gas_length=0.52, area=0.02)
