@@ -15,6 +15,7 @@ from fem.deck.reader import SUPPORTED
 from fem.elements import (
     bar,
     beam,
+    beam_stations,
     bush,
     rod,
     scalar,
@@ -72,6 +73,20 @@ _RESULTS: tuple[tuple[str, str, str, tuple[str, ...], str], ...] = (
     ("CBAR", "stress", "strain", bar.STRESS_COLUMNS, ""),
     ("CBEAM", "force", "", beam.FORCE_COLUMNS, "both ends"),
     ("CBEAM", "stress", "strain", beam.STRESS_COLUMNS, "both ends"),
+    (
+        "CBEAM_STATIONS",
+        "force",
+        "",
+        beam_stations.station_columns(beam_stations.FORCES, 1),
+        "stations between with SO YES, suffix _s1, _s2, ...; not under PLOAD1",
+    ),
+    (
+        "CBEAM_STATIONS",
+        "stress",
+        "strain",
+        beam_stations.station_columns(beam_stations.STRESSES, 1),
+        "likewise",
+    ),
     ("CROD, CONROD, CTUBE", "force", "", rod.COLUMNS, ""),
     ("CROD, CONROD, CTUBE", "stress", "strain", rod.COLUMNS, ""),
     ("CELAS1 ... CELAS4", "force", "stress, strain", scalar.SPRING_COLUMNS, ""),

@@ -17,6 +17,7 @@ import scipy.sparse as sp
 
 from fem.assembly import triples_rotation, turn_columns
 from fem.deck.case_control import Selection
+from fem.elements.beam_stations import StationRecovery
 from fem.elements.block import CENTRE, Detail, ElementBlock, Kind, Recovery
 from fem.loads.element_loads import ElementLoads
 from fem.points import Points
@@ -182,6 +183,33 @@ def loaded_bar_tables(
         detail=Detail(ends=True),
         loads=loads,
     )
+
+
+def station_tables(
+    points: Points,
+    blocks: Iterable[ElementBlock],
+    kind: Kind,
+    selection: Selection,
+    loads: ElementLoads | None,
+) -> list[ElementTable]:
+    """Results of the chosen CBEAM elements at stations between their ends.
+
+    Elements under loads between their grids are left out: what these do up to a station
+    is not known here.
+    """
+    if selection == "NONE":
+        return []
+    detail = Detail(stations=True)
+    beams = [block for block in blocks if block.card == "CBEAM"]
+    found: set[int] = set()
+    for block in beams:
+        recovery = block.recovery(kind, detail)
+        if isinstance(recovery, StationRecovery):
+            found.update(recovery.id[~np.isnan(recovery.x).all(axis=1)].tolist())
+    if loads is not None:
+        found -= set(loads.id.tolist())
+    chosen = frozenset(found if selection == "ALL" else found & selection)
+    return element_tables(points, beams, kind, chosen, detail=detail)
 
 
 def _part(

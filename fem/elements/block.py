@@ -61,11 +61,13 @@ class Detail:
         corner: results of quadrilaterals at the corners, too (CORNER, BILIN, ...).
         fibre: strains of shells at both fibres instead of curvatures (FIBER).
         ends: forces of CBAR at both ends, which differ under PLOAD1.
+        stations: of CBEAM at the stations between the ends, and nothing else.
     """
 
     corner: bool = False
     fibre: bool = False
     ends: bool = False
+    stations: bool = False
 
 
 CENTRE = Detail()

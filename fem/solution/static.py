@@ -13,7 +13,7 @@ from fem.grid_forces import grid_balance, grids_of, strain_energy
 from fem.linear_solver import SingularMatrixError
 from fem.loads import enforced_displacements, static_element_loads, static_load
 from fem.loads.element_loads import ElementLoads
-from fem.recovery import element_tables, loaded_bar_tables
+from fem.recovery import element_tables, loaded_bar_tables, station_tables
 from fem.results import ResultFile
 from fem.solution.options import Options
 from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
@@ -233,8 +233,9 @@ def write_element_results(
             detail=detail,
             loads=loads,
         )
+        chosen = wanted(subcase, quantity)
+        tables += station_tables(model.points, model.blocks, kind, chosen, loads)
         if kind == "force":
-            chosen = wanted(subcase, quantity)
             tables += loaded_bar_tables(model.points, model.blocks, chosen, loads)
         for table in tables:
             results.write_table(f"{name}/element_{kind}", table, table.of(u_g))

@@ -28,7 +28,12 @@ from fem.loads.element_loads import ElementLoads, side_by_side
 from fem.modal_damping import modal_ratios
 from fem.modal_transient import modal_transient, residual_vectors
 from fem.observation import Observer, Quantity
-from fem.recovery import ElementTable, element_tables, loaded_bar_tables
+from fem.recovery import (
+    ElementTable,
+    element_tables,
+    loaded_bar_tables,
+    station_tables,
+)
 from fem.results import PointLayout, ResultFile
 from fem.solution.modes import mode_table, modes_of, retained_modes
 from fem.solution.options import Options
@@ -314,6 +319,9 @@ def _element_results(
             )
 
         chosen = tables(wanted(case, request))
+        chosen += station_tables(
+            model.points, model.blocks, kind, wanted(case, request), loads
+        )
         if kind == "force":
             chosen += loaded_bar_tables(
                 model.points, model.blocks, wanted(case, request), loads
