@@ -8,7 +8,6 @@ import pytest
 
 from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
 from drake_landing.initial_state import attitude
-from systems.strut_law import ShockAbsorberTunables
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import NOSE_TIP, aircraft_body
@@ -27,10 +26,8 @@ def _vary(landing: LandingDiagram, case: int):
     def set_parameters(context) -> None:
         for absorber in landing.shock_absorbers.values():
             own = absorber.GetMyMutableContextFromRoot(context)
-            vector = own.get_mutable_numeric_parameter(0)
-            values = ShockAbsorberTunables(vector.CopyToVector())
-            values.precharge *= 1.0 + 0.001 * (case % 7)
-            vector.SetFromVector(values[:])
+            precharge = absorber.parameters.gas.precharge
+            absorber.set_tunables(own, precharge=precharge * (1.0 + 0.001 * (case % 7)))
 
     return set_parameters
 
