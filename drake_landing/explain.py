@@ -33,7 +33,7 @@ _HEAD = 12  # characters
 
 # Processor seconds as measured: fixed ones, per second of landing, per mode of that,
 # per step of the transient over a solution.
-_START, _FLIGHT, _MODE, _STEP = 10.0, 1.0, 0.02, 2.5
+_START, _FLIGHT, _MODE, _STEP = 18.0, 1.0, 0.02, 2.5
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -106,7 +106,7 @@ def run(
         Path, typer.Argument(help="Nastran deck (SOL 101, 103, 109, 112).")
     ],
     out: Annotated[
-        Path | None, typer.Option(help="Folder for results; default out/<deck>.")
+        Path | None, typer.Option(help="Folder for results; default out/fem/<deck>.")
     ] = None,
     ignore: Annotated[
         str, typer.Option(help="Unsupported cards to go on without: CARD,CARD,...")
@@ -144,7 +144,7 @@ def run(
     try:
         names = [name for name in ignore.replace(" ", "").split(",") if name]
         model = read_deck(deck, ignore=names)
-        folder = out if out is not None else Path("out") / deck.stem
+        folder = out if out is not None else Path("out", "fem", deck.stem)
         options = Options(
             threads=threads,
             envelope=envelope,
