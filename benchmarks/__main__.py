@@ -145,7 +145,8 @@ def page(kept: Results) -> str:
             "|---|---|---|",
         ]
         parts += [
-            f"| {what} | {value:.3g} | {text} |" for what, value, text in compared
+            f"| {what} | {transient_scale.plain(value, 3)} | {text} |"
+            for what, value, text in compared
         ]
         parts += ["", _explanation(kept)]
     return "\n".join(parts).rstrip("\n") + "\n"

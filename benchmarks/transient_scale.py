@@ -291,11 +291,15 @@ def table(results: dict[str, Figures]) -> str:
     lines = ["| part | figure | value | wanted |", "|---|---|---|---|"]
     for part, figures in results.items():
         for figure, value in figures.items():
-            text = f"{value:.4g}" if abs(value) < 1e5 else f"{value:.0f}"
-            lines.append(
-                f"| {part} | {figure} | {text} | {verdict(part, figure, value)} |"
-            )
+            wanted = verdict(part, figure, value)
+            lines.append(f"| {part} | {figure} | {plain(value)} | {wanted} |")
     return "\n".join(lines)
+
+
+def plain(value: float, digits: int = 4) -> str:
+    """A figure without exponents where it is large or whole."""
+    whole = float(value).is_integer() or abs(value) >= 1e3
+    return f"{value:.0f}" if whole else f"{value:.{digits}g}"
 
 
 SMALL = Size(around=24, along=36, wing=(6, 12), tail=(4, 8))
