@@ -79,7 +79,7 @@ def gear_problems(
             away = float(np.linalg.norm(p - node))
             if away > _REACH:
                 problems.append(
-                    f"gears.{gear.name}.{name}: found a point {away:.4g} m away from "
+                    f"gears.{gear.name}.{name}: found a point {away:.0f} m away from "
                     f"the attachment node {gear.attachment_node}, expected less than "
                     f"{_REACH:g} m; all lengths are in m, in the frame of the deck"
                 )
