@@ -5,10 +5,10 @@ from functools import cache
 from importlib.resources import files
 from pathlib import Path
 
-from drake_landing.airframe import load_airframe
-from drake_landing.cases_io import parse_case
-from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
-from drake_landing.inputs import prepare_aircraft
+from drake_landing.airframe.body import load_airframe
+from drake_landing.case.reading import parse_case
+from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.process.aircraft import prepare_aircraft
 from systems.modal_body import ModalBody
 
 SINK_RATE = 1.8288  # m/s

@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
 from systems.attachment import Attachment, RigidAttachment
 from systems.energy_budget import EnergyBudget
 from systems.flexible_airframe import FlexibleAirframe

@@ -17,7 +17,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 
 from benchmarks.conceptual_landing import SINK_RATE, make_landing, modal_body
-from drake_landing.diagram import LandingDiagram
+from drake_landing.landing.diagram import LandingDiagram
 from systems.slow_modes import fastest_rate
 from tests.drake_landing.landing_run import Run, land
 

@@ -18,17 +18,22 @@ from tempfile import TemporaryDirectory
 
 import pandas as pd
 
-from drake_landing.airframe import load_airframe
+from drake_landing.airframe.body import load_airframe
 from drake_landing.cache import Cache
-from drake_landing.cases_io import parse_case
-from drake_landing.gear import LandingGear
-from drake_landing.inputs import prepare_aircraft
-from drake_landing.lift import STANDARD_GRAVITY, aircraft_mass_centre
-from drake_landing.practices import rigid
-from drake_landing.presets import LANDING_SINK_RATE, PRESETS, RESERVE_SINK_RATE, Preset
-from drake_landing.scenario import Scenario
-from drake_landing.start import make_scenario_diagram, set_scenario_state
-from drake_landing.trial import Trial, try_scenario
+from drake_landing.case.presets import (
+    LANDING_SINK_RATE,
+    PRESETS,
+    RESERVE_SINK_RATE,
+    Preset,
+)
+from drake_landing.case.reading import parse_case
+from drake_landing.case.scenario import Scenario
+from drake_landing.gears.data import LandingGear
+from drake_landing.landing.lift import STANDARD_GRAVITY, aircraft_mass_centre
+from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
+from drake_landing.landing.trial import Trial, try_scenario
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.transient.practices import rigid
 from systems.modal_body import ModalBody
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "presets.md"

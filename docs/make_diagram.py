@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from drake_landing.aircraft.generator import build
-from drake_landing.diagram import MakeLandingDiagram
-from drake_landing.wiring import wiring_svg
+from drake_landing.landing.diagram import MakeLandingDiagram
+from drake_landing.landing.wiring import wiring_svg
 from systems.modal_body import ModalBody
 
 

@@ -20,6 +20,8 @@ import shutil
 import tempfile
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from functools import cache as once
+from importlib.resources import files
 from pathlib import Path
 
 import numpy as np
@@ -195,3 +197,14 @@ def _checksum(file: Path) -> str:
         while block := stream.read(_CHUNK):
             digest.update(block)
     return digest.hexdigest()
+
+
+@once
+def source_key(*packages: str) -> str:
+    """Of the program text of packages, without their subpackages."""
+    texts = [
+        file.read_text(encoding="utf-8")
+        for package in packages
+        for file in sorted(Path(str(files(package))).glob("*.py"))
+    ]
+    return content_key(texts)

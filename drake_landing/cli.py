@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 if TYPE_CHECKING:
-    from drake_landing.case import Case
-    from drake_landing.process import ProcessResult
+    from drake_landing.case.schema import Case
+    from drake_landing.results.result import ProcessResult
 
 _INTERRUPTED = 130
 
@@ -61,7 +61,7 @@ def demo(out: Annotated[Path | None, _out("out/demo")] = None) -> None:
     """The conceptual aircraft touches down: the whole process, no input needed."""
     from importlib.resources import files
 
-    from drake_landing.cases_io import parse_case
+    from drake_landing.case.reading import parse_case
 
     text = files("drake_landing").joinpath("demo.yaml").read_text(encoding="utf-8")
     _run(parse_case(text, file="demo.yaml"), out)
@@ -81,7 +81,7 @@ def run(
     ] = False,
 ) -> None:
     """The whole process for a case: landing, direct transient, comparison, report."""
-    from drake_landing.cases_io import load_case
+    from drake_landing.case.reading import load_case
 
     _run(load_case(case), out, practices=practices)
 
@@ -100,7 +100,7 @@ def check(
     ] = False,
 ) -> None:
     """Explains a case after a dry run: deck, mechanisms, gears, initial state."""
-    from drake_landing.cases_io import case_text, load_case, schema_text
+    from drake_landing.case.reading import case_text, load_case, schema_text
     from fem.errors import InputError
 
     if schema:
@@ -109,7 +109,7 @@ def check(
     if case is None:
         raise InputError("check: give a case file, or --schema")
     checked = load_case(case)
-    from drake_landing.explain import explain
+    from drake_landing.process.explain import explain
 
     print(explain(checked, _default_folder(checked), thorough=thorough))
     if everything:
@@ -134,7 +134,7 @@ def model(
     ] = None,
 ) -> None:
     """Writes a reference aircraft, or one from a CPACS file, as a Nastran deck."""
-    from drake_landing.inputs import write_model_deck
+    from drake_landing.process.aircraft import write_model_deck
     from fem.errors import InputError
 
     if level == "from-cpacs":
@@ -264,7 +264,7 @@ def _default_folder(case: "Case") -> Path:
 
 def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
     from drake_landing.output import claim
-    from drake_landing.process import run_case
+    from drake_landing.process.run import run_case
     from drake_landing.progress import reporter
 
     folder = claim(out or _default_folder(case), f"run {case.name}")
@@ -274,7 +274,7 @@ def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
 
 
 def _summary(result: "ProcessResult", folder: Path) -> str:
-    from drake_landing.summary import key_figures, story, time_taken
+    from drake_landing.results.summary import key_figures, story, time_taken
 
     figures = key_figures(result)
     width = max(len(name) for name, _ in figures)

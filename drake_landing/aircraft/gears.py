@@ -1,10 +1,10 @@
-"""Landing gears of the reference aircraft, in the schema of `drake_landing.gear`."""
+"""Landing gears of the reference aircraft, in the schema of `gears/data.py`."""
 
 from typing import Any
 
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.reference_axis import ATTACHMENTS
-from drake_landing.gear import TelescopicGear
+from drake_landing.gears.data import TelescopicGear
 
 
 def landing_gears() -> tuple[TelescopicGear, TelescopicGear, TelescopicGear]:

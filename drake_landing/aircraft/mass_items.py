@@ -12,7 +12,7 @@ import numpy as np
 from drake_landing.aircraft.facts import facts, table
 from drake_landing.aircraft.geometry import MIRROR, Float64, fuselage_section, surface
 from drake_landing.aircraft.reference_axis import NodeGroup, movable_shares
-from drake_landing.gear import LandingGear
+from drake_landing.gears.data import LandingGear
 
 
 @dataclass(frozen=True, kw_only=True)

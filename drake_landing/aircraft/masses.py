@@ -25,7 +25,7 @@ from drake_landing.aircraft.mass_items import (
     tilted,
 )
 from drake_landing.aircraft.reference_axis import SIDES, NodeGroup, Reference
-from drake_landing.gear import LandingGear
+from drake_landing.gears.data import LandingGear
 
 Structure = Mapping[str, Sequence[tuple[float, Float64]]]
 

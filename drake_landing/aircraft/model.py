@@ -13,7 +13,7 @@ import pandas as pd
 from drake_landing.aircraft.deck_writer import DeckText, Section, Value, case_set
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.geometry import Float64, Int64
-from drake_landing.gear import LandingGear
+from drake_landing.gears.data import LandingGear
 
 SETS = {1: "monitoring points", 2: "interface nodes", 3: "gear attachment nodes"}
 

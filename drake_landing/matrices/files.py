@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+from drake_landing.files import write_aside
 from drake_landing.matrices.dmig import read_punch, write_punch
 from drake_landing.matrices.named import NamedMatrix
 from drake_landing.matrices.nastran_h5 import read_h5
 from drake_landing.matrices.op4_binary import byte_order, read_binary, write_binary
 from drake_landing.matrices.op4_text import read_text, write_text
-from drake_landing.results import write_aside
 from fem.errors import InputError
 
 _HDF5 = b"\x89HDF"

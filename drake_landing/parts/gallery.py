@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from drake_landing.case.parts import Parts
 from drake_landing.parts.pictures import can_draw, draw_field, stress_field
-from drake_landing.parts.settings import Parts
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.tables import component_table
 from drake_landing.parts.watch import PartsFound

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.handover import AttachmentLoads
+from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import BeamCuts
 from drake_landing.parts.stress import Stresses
 from fem.statics import inertia_relief

@@ -8,7 +8,7 @@ import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
 
-from drake_landing.handover import AttachmentLoads
+from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import (
     EVERYWHERE,
     Beam,

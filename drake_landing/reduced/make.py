@@ -7,7 +7,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.basis import interface_rows
+from drake_landing.airframe.basis import interface_rows
 from drake_landing.reduced.model import ReducedModel
 from fem.errors import InputError
 from fem.linear_solver import SingularMatrixError

@@ -7,11 +7,11 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from drake_landing.files import write_aside, write_csv
 from drake_landing.matrices import write_dmig, write_op4
 from drake_landing.matrices.nastran_h5 import write_h5
 from drake_landing.reduced.checks import ReductionChecks
 from drake_landing.reduced.model import ReducedModel
-from drake_landing.results import write_aside, write_csv
 
 PAIRED = 0.5  # MAC from which two modes are the same
 _FILES = ("reduced.h5", "reduced.pch", "reduced.op4", "grids.csv", "report.txt")

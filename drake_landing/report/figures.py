@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.history import ATTACHMENT, UNITS, LandingHistory
+from drake_landing.landing.history import ATTACHMENT, UNITS, LandingHistory
 from drake_landing.report.plots import (
     INK,
     MULTIBODY,

@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from drake_landing.cases_io import case_text
-from drake_landing.comparison import NEGLIGIBLE, shock_response_spectrum
-from drake_landing.extremes import worst_elements
+from drake_landing.case.reading import case_text
+from drake_landing.files import versions
 from drake_landing.report import figures
 from drake_landing.report.page import (
     Block,
@@ -21,11 +20,12 @@ from drake_landing.report.page import (
     write_page,
 )
 from drake_landing.report.parts_sections import Picture, parts_sections
-from drake_landing.results import versions
-from drake_landing.summary import key_figures, mode_count, story
+from drake_landing.results.comparison import NEGLIGIBLE, shock_response_spectrum
+from drake_landing.results.summary import key_figures, mode_count, story
+from drake_landing.transient.extremes import worst_elements
 
 if TYPE_CHECKING:
-    from drake_landing.process import ProcessResult
+    from drake_landing.results.result import ProcessResult
 
 _SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
 

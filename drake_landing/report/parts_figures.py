@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 
 from drake_landing.parts.cuts import NAMED, BeamCuts
 from drake_landing.parts.watch import PartsFound
-from drake_landing.practices import HYBRID, RIGID, STATIC, Practices
 from drake_landing.report.plots import (
     INK,
     MULTIBODY,
@@ -23,6 +22,7 @@ from drake_landing.report.plots import (
     panels,
     svg,
 )
+from drake_landing.transient.practices import HYBRID, RIGID, STATIC, Practices
 
 Float64 = npt.NDArray[np.float64]
 

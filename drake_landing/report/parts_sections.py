@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from drake_landing.comparison import shock_response_spectrum
 from drake_landing.parts import tables
-from drake_landing.practices import HYBRID, RIGID, STATIC, Practices
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
+from drake_landing.results.comparison import shock_response_spectrum
+from drake_landing.transient.practices import HYBRID, RIGID, STATIC, Practices
 
 if TYPE_CHECKING:
-    from drake_landing.process import ProcessResult
+    from drake_landing.results.result import ProcessResult
 
 SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
 Picture = tuple[Path, str]

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from jinja2 import Environment, StrictUndefined
 
-from drake_landing.results import write_aside
+from drake_landing.files import write_aside
 from drake_landing.show.mesh import RIGID, Component, DrawnMesh
 from drake_landing.show.modes import ShownModes
 from drake_landing.show.pictures import colour, deformation_factor

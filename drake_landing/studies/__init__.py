@@ -6,5 +6,5 @@ study = run_study(PLANS["modes"], Path("out/modes"))
 
 from drake_landing.studies.plan import PLANS as PLANS
 from drake_landing.studies.plan import Plan as Plan
-from drake_landing.studies.study import Study as Study
+from drake_landing.studies.runs import Study as Study
 from drake_landing.studies.study import run_study as run_study

@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from drake_landing.airframe import check_nodes, modal_body
-from drake_landing.axes import rotation_AB
-from drake_landing.basis import elastic_basis
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.basis import elastic_basis
+from drake_landing.airframe.body import check_nodes, modal_body
+from drake_landing.airframe.selection import Candidates, Choice
 from drake_landing.cache import Cache, content_key
-from drake_landing.case import Basis, Case
-from drake_landing.inputs import Aircraft, prepare_aircraft
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.schema import Basis, Case
+from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.progress import Reporter
-from drake_landing.selection import Candidates, Choice
 from drake_landing.studies.plan import FULL_MODES, NAMES, Plan, RunName
 from fem.structure import Structure
 from systems.modal_body import ModalBody

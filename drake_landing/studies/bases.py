@@ -13,15 +13,15 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.basis import Basis, elastic_basis, with_residual_vectors
+from drake_landing.airframe.basis import Basis, elastic_basis, with_residual_vectors
+from drake_landing.airframe.selection import modal_model
 from drake_landing.cache import Cache
-from drake_landing.selection import modal_model
 from drake_landing.studies.airframes import StudyAirframe
 from drake_landing.studies.budget import exact_response
 from drake_landing.studies.plan import FULL_MODES, NAMES, Plan
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import StudyRun
+    from drake_landing.studies.runs import StudyRun
 
 Float64 = npt.NDArray[np.float64]
 

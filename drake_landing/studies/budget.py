@@ -26,8 +26,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.handover import AttachmentLoads
-from drake_landing.relevance import ModalModel, modal_accelerations
+from drake_landing.airframe.relevance import ModalModel, modal_accelerations
+from drake_landing.landing.handover import AttachmentLoads
 
 Float64 = npt.NDArray[np.float64]
 

@@ -19,7 +19,7 @@ from drake_landing.report.plots import (
 from drake_landing.studies.plan import FULL_MODES, RunName
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import Study, StudyRun
+    from drake_landing.studies.runs import Study, StudyRun
 
 
 def _percent(share: float, _place: int | None = None) -> str:

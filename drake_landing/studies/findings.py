@@ -9,7 +9,7 @@ import pandas as pd
 from drake_landing.studies.plan import NAMES, RunName
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import Study, StudyRun
+    from drake_landing.studies.runs import Study, StudyRun
 
 # Difference (rms) at and below which a result is called sufficient: at 20 % the curves
 # part visibly, at 5 % they coincide but for details.

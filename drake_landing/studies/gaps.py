@@ -15,8 +15,8 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.handover import AttachmentLoads
-from drake_landing.relevance import ModalModel
+from drake_landing.airframe.relevance import ModalModel
+from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.studies.airframes import StudyAirframe
 from drake_landing.studies.budget import (
     at_points,
@@ -27,7 +27,7 @@ from drake_landing.studies.budget import (
 from drake_landing.studies.plan import Plan
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import StudyRun
+    from drake_landing.studies.runs import StudyRun
 
 Float64 = npt.NDArray[np.float64]
 

@@ -5,35 +5,23 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
-from functools import cache as once
-from importlib.resources import files
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.axes import rotation_AB
-from drake_landing.cache import Arrays, Cache, content_key
-from drake_landing.case import Case
-from drake_landing.handover import AttachmentLoads, smooth_curve
-from drake_landing.history import gear_peaks
-from drake_landing.inputs import Aircraft
-from drake_landing.landing import build_landing, fly
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.cache import Arrays, Cache, content_key, source_key
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.schema import Case
+from drake_landing.landing.handover import AttachmentLoads, smooth_curve
+from drake_landing.landing.history import gear_peaks
+from drake_landing.landing.run import build_landing, fly
 from systems.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
 
-# Modules that a landing does not use: what they say does not change it.
-_UNUSED = {
-    f"drake_landing.{name}"
-    for name in (
-        *("airframe", "audit", "basis", "cache", "cases_io", "cli", "comparison"),
-        *("drop", "explain", "gear_pictures", "inputs", "parts", "practices"),
-        *("process", "progress", "pulse_modes", "pulses", "relevance", "replay"),
-        *("response", "results", "selection", "skeleton", "summary", "transient_deck"),
-    )
-}
+_ROOMS = ("case", "gears", "landing")  # whose program a run depends on
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +57,12 @@ class LandingTask:
         gears = [gear.model_dump_json() for gear in self.aircraft.gears]
         case = self.case
         return content_key(
-            source_key("systems", "drake_landing"),
+            source_key(
+                "systems",
+                "drake_landing.case",
+                "drake_landing.gears",
+                "drake_landing.landing",
+            ),
             dict(vars(self.body)),
             gears,
             dict(self.aircraft.monitoring),
@@ -166,15 +159,3 @@ def _result(arrays: Arrays) -> LandingResult:
         seconds=float(arrays["cost"][0]),
         steps=int(arrays["cost"][1]),
     )
-
-
-@once
-def source_key(*packages: str) -> str:
-    """Of the program text of packages, without subpackages and `_UNUSED` modules."""
-    texts = [
-        file.read_text(encoding="utf-8")
-        for package in packages
-        for file in sorted(Path(str(files(package))).glob("*.py"))
-        if f"{package}.{file.stem}" not in _UNUSED
-    ]
-    return content_key(texts)

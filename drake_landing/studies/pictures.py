@@ -4,12 +4,12 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drake_landing.results import write_aside
+from drake_landing.files import write_aside
 from drake_landing.studies import figures
 from drake_landing.studies.plan import FULL_MODES
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import Study, StudyRun
+    from drake_landing.studies.runs import Study, StudyRun
 
 
 def write_pictures(folder: Path, study: "Study") -> list[Path]:

@@ -3,7 +3,8 @@
 from dataclasses import dataclass, field
 from typing import get_args
 
-from drake_landing.case import (
+from drake_landing.case.scenario import Scenario
+from drake_landing.case.schema import (
     Basis,
     Case,
     Selection,
@@ -11,7 +12,6 @@ from drake_landing.case import (
     Transient,
     parse_selection,
 )
-from drake_landing.scenario import Scenario
 
 _SCENARIO = Scenario(sink_rate=1.8288, forward_speed=67.0)  # 6 ft/s, three points
 _SIMULATION = Simulation(duration=0.6)

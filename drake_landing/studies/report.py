@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
+from drake_landing.files import versions
 from drake_landing.report.page import Block, Page, Section, table_block, write_page
-from drake_landing.results import versions
 from drake_landing.studies import figures
 from drake_landing.studies.findings import (
     estimate_quality,
@@ -18,7 +18,7 @@ from drake_landing.studies.findings import (
 from drake_landing.studies.plan import NAMES
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import Study, StudyRun
+    from drake_landing.studies.runs import Study, StudyRun
 
 _MEASURES = {
     "topology": "topology",

@@ -2,87 +2,28 @@
 
 import time as clock
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from drake_landing.airframe.selection import Choice
 from drake_landing.cache import Cache
-from drake_landing.comparison import RunLabel, comparison_table
+from drake_landing.files import write_csv
 from drake_landing.progress import Reporter, Silent
-from drake_landing.results import write_csv
-from drake_landing.selection import Choice
+from drake_landing.results.comparison import RunLabel, comparison_table
 from drake_landing.studies.airframes import StudyAirframe, study_airframe
 from drake_landing.studies.bases import bases_of, bases_table, spectrum_table
-from drake_landing.studies.budget import Budget, error_budget
+from drake_landing.studies.budget import error_budget
 from drake_landing.studies.gaps import gap_table
 from drake_landing.studies.landings import LandingResult, LandingTask, fly_all
 from drake_landing.studies.plan import Plan, RunName
+from drake_landing.studies.runs import Study, StudyRun
 from drake_landing.studies.tables import budget_table, convergence_table, study_table
 from drake_landing.studies.transients import TransientTask, respond_all
 
 Float64 = npt.NDArray[np.float64]
-
-
-@dataclass(frozen=True, kw_only=True)
-class StudyRun:
-    """One landing and its transient.
-
-    Attributes:
-        name: topology and selection.
-        choice: its elastic modes.
-        landing: the multibody run.
-        transient: (t, p, 3) accelerations, direct transient, all monitoring points.
-        budget: parts of the difference.
-    """
-
-    name: RunName
-    choice: Choice
-    landing: LandingResult
-    transient: Float64
-    budget: Budget
-
-    @property
-    def time(self) -> Float64:
-        """(t,) s."""
-        return self.landing.loads.time
-
-
-@dataclass(frozen=True, kw_only=True)
-class Study:
-    """All runs of a plan and what they say.
-
-    Attributes:
-        plan: what was asked for.
-        airframes: topology -> airframe.
-        points: names of all monitoring points, in the order of the arrays.
-        runs: in the order of topologies and selections.
-        comparison: table of `comparison.csv`.
-        measures: as `comparison`, with times of peaks and Sprague-Geers parts.
-        budgets: error budget, a row per run and point, vertical.
-        convergence: modal truncation error over the number of modes.
-        spectra: modes of bases beside those of the full model.
-        bases: linear response of bases, also with residual vectors.
-        gaps: differences that more modes do not close.
-        gears: table of `gears.csv`.
-        seconds: stage -> wall time.
-    """
-
-    plan: Plan
-    airframes: Mapping[str, StudyAirframe]
-    points: tuple[str, ...]
-    runs: tuple[StudyRun, ...]
-    comparison: pd.DataFrame
-    measures: pd.DataFrame
-    budgets: pd.DataFrame
-    convergence: pd.DataFrame
-    spectra: pd.DataFrame
-    bases: pd.DataFrame
-    gaps: pd.DataFrame
-    gears: pd.DataFrame
-    seconds: Mapping[str, float]
 
 
 def run_study(

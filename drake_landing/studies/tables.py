@@ -7,11 +7,11 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.case import Selection
-from drake_landing.comparison import NEGLIGIBLE, agreement
-from drake_landing.handover import AttachmentLoads
-from drake_landing.relevance import modal_accelerations
-from drake_landing.selection import Candidates
+from drake_landing.airframe.relevance import modal_accelerations
+from drake_landing.airframe.selection import Candidates
+from drake_landing.case.schema import Selection
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.results.comparison import NEGLIGIBLE, agreement
 from drake_landing.studies.airframes import StudyAirframe
 from drake_landing.studies.budget import (
     at_points,
@@ -21,7 +21,7 @@ from drake_landing.studies.budget import (
 )
 
 if TYPE_CHECKING:
-    from drake_landing.studies.study import StudyRun
+    from drake_landing.studies.runs import StudyRun
 
 Float64 = npt.NDArray[np.float64]
 

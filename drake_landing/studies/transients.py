@@ -11,11 +11,10 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from drake_landing.cache import Cache, content_key
-from drake_landing.handover import AttachmentLoads
-from drake_landing.response import SCHEMES
+from drake_landing.cache import Cache, content_key, source_key
+from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.studies.airframes import StudyAirframe
-from drake_landing.studies.landings import source_key
+from drake_landing.transient.response import SCHEMES
 from fem.linear_solver import SingularMatrixError
 from fem.observation import Observation
 from fem.transient import direct_transient

@@ -7,9 +7,12 @@ import numpy as np
 from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
 from pydrake.systems.framework import Context
 
-from drake_landing.diagram import LandingDiagram
-from drake_landing.equilibrium import set_flight_equilibrium, set_static_equilibrium
-from drake_landing.initial_state import set_initial_state
+from drake_landing.landing.diagram import LandingDiagram
+from drake_landing.landing.equilibrium import (
+    set_flight_equilibrium,
+    set_static_equilibrium,
+)
+from drake_landing.landing.initial_state import set_initial_state
 
 
 @dataclass(frozen=True)

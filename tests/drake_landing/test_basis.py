@@ -5,11 +5,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from drake_landing import basis as room
-from drake_landing.basis import elastic_basis, residual_basis, with_residual_vectors
+from drake_landing.airframe import basis as room
+from drake_landing.airframe.basis import (
+    elastic_basis,
+    residual_basis,
+    with_residual_vectors,
+)
+from drake_landing.airframe.selection import modal_model
 from drake_landing.cache import Cache
-from drake_landing.case import Airframe
-from drake_landing.selection import modal_model
+from drake_landing.case.schema import Airframe
 from fem.deck.reader import read_deck
 from fem.structure import Structure
 
@@ -78,8 +82,8 @@ def test_residual_vectors_complete_a_basis(
 
 
 def test_models_join(structure: Structure) -> None:
-    from drake_landing.cases_io import parse_case
-    from drake_landing.inputs import prepare_aircraft
+    from drake_landing.case.reading import parse_case
+    from drake_landing.process.aircraft import prepare_aircraft
 
     text = DECK.with_name("tiny_case.yaml").read_text()
     aircraft = prepare_aircraft(parse_case(text, folder=DECK.parent), Path("unused"))

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from drake_landing.case import Case, Selection
-from drake_landing.cases_io import case_text, load_case, parse_case, schema_text
+from drake_landing.case.reading import case_text, load_case, parse_case, schema_text
+from drake_landing.case.schema import Case, Selection
 from fem.errors import InputError
 
 MINIMAL = """\

@@ -7,8 +7,8 @@ import jsonschema
 import pytest
 import yaml
 
-from drake_landing.cases_io import case_text, load_case, parse_case, schema_text
-from drake_landing.explain import explain
+from drake_landing.case.reading import case_text, load_case, parse_case, schema_text
+from drake_landing.process.explain import explain
 from fem.errors import InputError
 
 CASES = sorted(Path(__file__).parents[2].joinpath("cases").rglob("*.yaml"))

@@ -169,7 +169,7 @@ def test_an_internal_failure_is_one_line_and_status_1(
     def broken(*_: object) -> None:
         raise ZeroDivisionError("oops")
 
-    monkeypatch.setattr("drake_landing.cases_io.load_case", broken)
+    monkeypatch.setattr("drake_landing.case.reading.load_case", broken)
     status, _, message = command("check", tmp_path / "case.yaml")
     assert status == 1
     assert "internal failure: ZeroDivisionError: oops" in message

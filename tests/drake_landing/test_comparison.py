@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drake_landing.comparison import (
+from drake_landing.results.comparison import (
     COLUMNS,
     RunLabel,
     agreement,

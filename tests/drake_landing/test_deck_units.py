@@ -6,13 +6,14 @@ import h5py
 import numpy as np
 import pytest
 
-from drake_landing.airframe import AirframeModel, load_airframe
-from drake_landing.case import Case
-from drake_landing.cases_io import parse_case
-from drake_landing.deck_units import check_units
-from drake_landing.handover import AttachmentLoads
-from drake_landing.inputs import Aircraft, prepare_aircraft
-from drake_landing.process import write_landing_deck
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.body import AirframeModel, load_airframe
+from drake_landing.airframe.deck_units import check_units
+from drake_landing.case.reading import parse_case
+from drake_landing.case.schema import Case
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.run import write_landing_deck
 from drake_landing.reduced.command import reduce_deck
 from fem.deck.reader import read_deck
 from fem.errors import InputError

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from drake_landing.diagram import MakeLandingDiagram
-from drake_landing.initial_state import (
+from drake_landing.landing.diagram import MakeLandingDiagram
+from drake_landing.landing.initial_state import (
     angular_velocity,
     attitude,
     set_initial_state,

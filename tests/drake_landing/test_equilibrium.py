@@ -4,14 +4,17 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from drake_landing.diagram import MakeLandingDiagram
-from drake_landing.equilibrium import set_flight_equilibrium, set_static_equilibrium
-from drake_landing.initial_state import (
+from drake_landing.landing.diagram import MakeLandingDiagram
+from drake_landing.landing.equilibrium import (
+    set_flight_equilibrium,
+    set_static_equilibrium,
+)
+from drake_landing.landing.initial_state import (
     attitude,
     set_initial_state,
     tyre_clearances,
 )
-from drake_landing.lift import Lift, aircraft_mass_centre, decaying
+from drake_landing.landing.lift import Lift, aircraft_mass_centre, decaying
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body

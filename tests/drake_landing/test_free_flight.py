@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from drake_landing import explain as explaining
-from drake_landing.cases_io import load_case
-from drake_landing.free_flight import check_free_flight
+from drake_landing.airframe.free_flight import check_free_flight
+from drake_landing.case.reading import load_case
+from drake_landing.process import explain as explaining
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.structure import Structure

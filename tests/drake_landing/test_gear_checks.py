@@ -7,10 +7,10 @@ import pytest
 from numpy.testing import assert_allclose
 from pydantic import ValidationError
 
-from drake_landing.cases_io import load_case
-from drake_landing.explain import explain
-from drake_landing.gear_checks import gear_problems, gear_remarks, static_loads
-from drake_landing.gear_holds import attachment_places
+from drake_landing.airframe.gear_checks import gear_problems, gear_remarks, static_loads
+from drake_landing.case.reading import load_case
+from drake_landing.gears.holds import attachment_places
+from drake_landing.process.explain import explain
 from fem.errors import InputError
 from tests.drake_landing.landing_gears import (
     aircraft_gears,

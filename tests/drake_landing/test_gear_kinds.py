@@ -10,16 +10,16 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import LinearSpringDamper, MultibodyForces
 from pydrake.systems.framework import DiagramBuilder
 
-from drake_landing.diagram import MakeLandingDiagram
-from drake_landing.equilibrium import set_static_equilibrium
-from drake_landing.gear import TelescopicGear, read_gear
-from drake_landing.gear_bodies import (
+from drake_landing.gears.bodies import (
     AddLandingGear,
     mass_points,
     strut_axis,
     wheel_centres,
 )
-from drake_landing.gear_systems import AddGearSystems
+from drake_landing.gears.data import TelescopicGear, read_gear
+from drake_landing.gears.systems import AddGearSystems
+from drake_landing.landing.diagram import MakeLandingDiagram
+from drake_landing.landing.equilibrium import set_static_equilibrium
 from tests.drake_landing.landing_gears import (
     aircraft_gears,
     bogie_main,

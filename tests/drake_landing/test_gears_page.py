@@ -15,7 +15,7 @@ def test_gear_put_together_by_hand_carries_a_load(capsys):
 
 def test_modules_and_helpers_that_the_page_names_exist():
     root, text = PAGE.parents[1], PAGE.read_text()
-    for module in re.findall(r"`((?:systems|drake_landing)/\w+\.py)`", text):
+    for module in re.findall(r"`((?:systems|drake_landing)/[\w/]+\.py)`", text):
         assert (root / module).is_file(), module
     for link in re.findall(r"\]\((\w+\.md)\)", text):
         assert (PAGE.parent / link).is_file(), link

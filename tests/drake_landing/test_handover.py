@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from drake_landing.handover import (
+from drake_landing.landing.handover import (
     AttachmentLoads,
     distinct_instants,
     resample,

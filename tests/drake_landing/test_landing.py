@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from pydrake.systems.analysis import Simulator
 
-from drake_landing.axes import gear_in_A, rotation_AB
-from drake_landing.case import Axes, Case, Scenario, Simulation
-from drake_landing.cases_io import load_case
-from drake_landing.history import LandingHistory, gear_peaks
-from drake_landing.landing import (
+from drake_landing.case.axes import gear_in_A, rotation_AB
+from drake_landing.case.reading import load_case
+from drake_landing.case.schema import Axes, Case, Scenario, Simulation
+from drake_landing.landing.history import LandingHistory, gear_peaks
+from drake_landing.landing.run import (
     LandingError,
     build_landing,
     fast_mode_notices,

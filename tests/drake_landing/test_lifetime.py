@@ -6,8 +6,8 @@ import numpy as np
 import psutil
 import pytest
 
-from drake_landing.diagram import LandingDiagram, MakeLandingDiagram
-from drake_landing.initial_state import attitude
+from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.landing.initial_state import attitude
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import NOSE_TIP, aircraft_body

@@ -6,7 +6,7 @@ from pydrake.systems.analysis import Simulator
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import ConstantVectorSource, Integrator, LogVectorOutput
 
-from drake_landing.logs import log_table
+from drake_landing.landing.logs import log_table
 
 
 @pytest.fixture

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from drake_landing.cases_io import parse_case
-from drake_landing.handover import AttachmentLoads
-from drake_landing.inputs import Aircraft, prepare_aircraft
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.case.reading import parse_case
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.parts.case_places import across
 from drake_landing.parts.cuts import ANY, Beam, beam_cuts, mean_of_three
 from drake_landing.parts.inventory import inventory
-from drake_landing.parts.places import Places, across
+from drake_landing.parts.places import Places
 from drake_landing.parts.slices import (
     Slices,
     balanced,
@@ -21,8 +22,9 @@ from drake_landing.parts.slices import (
 from drake_landing.parts.stress import stresses
 from drake_landing.parts.tables import component_table, worst_elements
 from drake_landing.parts.watch import PartsFound, PartsWatch
-from drake_landing.practices import HYBRID, RIGID, STATIC, compare_practices
-from drake_landing.response import transient_response
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.transient.practices import HYBRID, RIGID, STATIC, compare_practices
+from drake_landing.transient.response import transient_response
 from fem.deck.reader import read_deck
 from fem.observation import Observation
 from fem.recovery import element_tables

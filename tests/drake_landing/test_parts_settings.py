@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from drake_landing.aircraft import write_model
-from drake_landing.cases_io import parse_case
+from drake_landing.case.parts import Parts
+from drake_landing.case.reading import parse_case
+from drake_landing.parts.case_places import places_of
 from drake_landing.parts.inventory import inventory
-from drake_landing.parts.places import places_of
 from drake_landing.parts.reference_places import steady_load
-from drake_landing.parts.settings import Parts
 from drake_landing.parts.slices import balanced
 from fem.deck.reader import read_deck
 from fem.errors import InputError

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from drake_landing.cases_io import parse_case
-from drake_landing.lift import aircraft_mass_centre
-from drake_landing.presets import PRESETS
-from drake_landing.scenario import Scenario
-from drake_landing.start import make_scenario_diagram
-from drake_landing.trial import try_scenario
+from drake_landing.case.presets import PRESETS
+from drake_landing.case.reading import parse_case
+from drake_landing.case.scenario import Scenario
+from drake_landing.landing.lift import aircraft_mass_centre
+from drake_landing.landing.start import make_scenario_diagram
+from drake_landing.landing.trial import try_scenario
 from fem.errors import InputError
 from tests.drake_landing.landing_gears import aircraft_gears, changed
 from tests.systems.synthetic_body import aircraft_body

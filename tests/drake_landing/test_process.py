@@ -9,15 +9,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.airframe import AirframeModel, load_airframe, mass_properties
-from drake_landing.case import Airframe, Case
-from drake_landing.cases_io import load_case, parse_case
-from drake_landing.comparison import COLUMNS
-from drake_landing.inputs import prepare_aircraft
+from drake_landing.airframe.body import AirframeModel, load_airframe, mass_properties
+from drake_landing.case.reading import load_case, parse_case
+from drake_landing.case.schema import Airframe, Case
 from drake_landing.parts.pictures import can_draw
-from drake_landing.process import ProcessResult, run_case
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.run import run_case
 from drake_landing.progress import Silent
-from drake_landing.summary import key_figures
+from drake_landing.results.comparison import COLUMNS
+from drake_landing.results.result import ProcessResult
+from drake_landing.results.summary import key_figures
 
 HERE = Path(__file__).parent
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from drake_landing.cases_io import load_case, parse_case
+from drake_landing.case.reading import load_case, parse_case
 from drake_landing.cli import app
 
 ROOT = Path(__file__).parents[2]

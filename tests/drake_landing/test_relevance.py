@@ -7,21 +7,22 @@ import pytest
 import scipy.sparse as sp
 from scipy.integrate import trapezoid
 
-from drake_landing.airframe import load_airframe
-from drake_landing.basis import Basis, elastic_basis
-from drake_landing.case import Airframe, Case
-from drake_landing.cases_io import parse_case
-from drake_landing.drop import drop_pulse
-from drake_landing.inputs import Aircraft, prepare_aircraft
-from drake_landing.pulses import is_symmetric, touchdown_pulses
-from drake_landing.relevance import (
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.basis import Basis, elastic_basis
+from drake_landing.airframe.body import load_airframe
+from drake_landing.airframe.drop import drop_pulse
+from drake_landing.airframe.pulses import is_symmetric, touchdown_pulses
+from drake_landing.airframe.relevance import (
     ModalModel,
     Relevance,
     modal_accelerations,
     modal_pulse,
     response,
 )
-from drake_landing.selection import Candidates, modal_model, select_modes
+from drake_landing.airframe.selection import Candidates, modal_model, select_modes
+from drake_landing.case.reading import parse_case
+from drake_landing.case.schema import Airframe, Case
+from drake_landing.process.aircraft import prepare_aircraft
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.modal_transient import modal_transient
@@ -166,7 +167,7 @@ def test_a_mode_that_nobody_sees_comes_last() -> None:
         monitor=monitor,
         attachment={7: rng.normal(size=(6, 4))},
     )
-    from drake_landing.pulses import GearPulses
+    from drake_landing.airframe.pulses import GearPulses
 
     load = np.sin(np.linspace(0, 3, 200))[None, :, None] * rng.normal(size=6)
     pulse = GearPulses(names=("g",), node_id=np.array([7]), step=1e-3, load=load)

@@ -5,10 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from drake_landing.cases_io import load_case
-from drake_landing.gear_pictures import rods
-from drake_landing.replay import deformation_factor
-from drake_landing.skeleton import Skeleton
+from drake_landing.airframe.skeleton import Skeleton
+from drake_landing.case.reading import load_case
+from drake_landing.gears.pictures import rods
+from drake_landing.replay.record import deformation_factor
 
 
 @pytest.mark.parametrize(

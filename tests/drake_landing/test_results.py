@@ -7,15 +7,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.history import ATTACHMENT, STRUT, TYRE, LandingHistory, gear_peaks
+from drake_landing.files import write_aside, write_csv
+from drake_landing.landing.history import (
+    ATTACHMENT,
+    STRUT,
+    TYRE,
+    LandingHistory,
+    gear_peaks,
+)
 from drake_landing.parts.places import Places
 from drake_landing.parts.watch import CaseFound, PartsFound
-from drake_landing.results import (
-    write_aside,
-    write_csv,
-    write_history_csv,
-    write_results,
-)
+from drake_landing.results.files import write_history_csv, write_results
 from systems.modal_body import ModalBody
 
 TIME = np.linspace(0, 1, 11)

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.skeleton import Skeleton, element_edges, element_faces
+from drake_landing.airframe.skeleton import Skeleton, element_edges, element_faces
 from fem.deck.reader import read_deck
 
 

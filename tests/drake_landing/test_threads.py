@@ -5,11 +5,11 @@ import pytest
 import scipy.sparse as sp
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from drake_landing.case import Scenario, Simulation
-from drake_landing.diagram import MakeLandingDiagram
-from drake_landing.landing import fly
+from drake_landing.case.schema import Scenario, Simulation
+from drake_landing.landing.diagram import MakeLandingDiagram
+from drake_landing.landing.run import fly
+from drake_landing.landing.threads import single_threaded_blas
 from drake_landing.progress import Silent
-from drake_landing.threads import single_threaded_blas
 from fem.linear_solver import factorize
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.systems.synthetic_body import aircraft_body

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from pyNastran.bdf.bdf import BDF
 
-from drake_landing.handover import AttachmentLoads
-from drake_landing.transient_deck import (
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.transient.deck import (
     model_selections,
     transient_deck,
     write_transient_deck,

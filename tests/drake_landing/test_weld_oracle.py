@@ -20,10 +20,10 @@ from pydrake.multibody.tree import (
 from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
 from pydrake.systems.framework import DiagramBuilder, EventStatus
 
-from drake_landing.diagram import MakeLandingDiagram
-from drake_landing.gear_bodies import AddLandingGear
-from drake_landing.gear_parameters import shock_absorber_parameters, tire_parameters
-from drake_landing.initial_state import angular_velocity, attitude
+from drake_landing.gears.bodies import AddLandingGear
+from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
+from drake_landing.landing.diagram import MakeLandingDiagram
+from drake_landing.landing.initial_state import angular_velocity, attitude
 from systems.gear_forces import GearForces
 from systems.shock_absorber import ShockAbsorber
 from systems.tire import Tire

@@ -7,7 +7,7 @@ import pytest
 from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import Adder, ConstantVectorSource, LogVectorOutput
 
-from drake_landing.wiring import wiring_dot, wiring_svg
+from drake_landing.landing.wiring import wiring_dot, wiring_svg
 
 
 def _sum():

@@ -5,9 +5,9 @@ import pytest
 
 from drake_landing.aircraft import interface_nodes
 from drake_landing.aircraft.facts import facts
-from drake_landing.aircraft.global_modes import named_modes, participations, patterns
 from drake_landing.aircraft.reference_axis import reference_nodes
 from drake_landing.reduced.checks import reduced_modes
+from drake_landing.reduced.global_modes import named_modes, participations, patterns
 from drake_landing.reduced.make import reduce_structure
 from drake_landing.reduced.model import ReducedModel
 

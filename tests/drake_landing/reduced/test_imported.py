@@ -6,17 +6,17 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.airframe import AirframeModel, load_airframe
-from drake_landing.axes import rotation_AB
-from drake_landing.case import Case
-from drake_landing.cases_io import parse_case
+from drake_landing.airframe.body import AirframeModel, load_airframe
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.reading import parse_case
+from drake_landing.case.schema import Case
 from drake_landing.cli import app, guarded
-from drake_landing.handover import smooth_curve
-from drake_landing.history import LandingHistory
-from drake_landing.inputs import prepare_aircraft
-from drake_landing.landing import build_landing, fly
+from drake_landing.landing.handover import smooth_curve
+from drake_landing.landing.history import LandingHistory
+from drake_landing.landing.run import build_landing, fly
 from drake_landing.matrices import write_op4
-from drake_landing.process import run_case
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.run import run_case
 from drake_landing.reduced.imported import read_reduced
 from drake_landing.reduced.make import reduce_structure
 from drake_landing.reduced.report import grid_table

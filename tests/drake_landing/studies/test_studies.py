@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from drake_landing.cache import Cache
-from drake_landing.case import Simulation, Transient
-from drake_landing.comparison import COLUMNS
+from drake_landing.case.schema import Simulation, Transient
+from drake_landing.results.comparison import COLUMNS
 from drake_landing.studies import PLANS, Study, run_study
 from drake_landing.studies import study as story
 from drake_landing.studies.plan import RunName
@@ -138,7 +138,7 @@ def test_second_time_computes_nothing(
 
     monkeypatch.setattr("drake_landing.studies.landings._fly", never)
     monkeypatch.setattr("drake_landing.studies.transients._respond", never)
-    monkeypatch.setattr("drake_landing.basis._elastic", never)
+    monkeypatch.setattr("drake_landing.airframe.basis._elastic", never)
     again = run_study(PLAN, folder / "again", cache=Cache(folder / "cache"))
     pd.testing.assert_frame_equal(again.comparison, study.comparison)
 

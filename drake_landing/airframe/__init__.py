@@ -1,0 +1,1 @@
+"""From a deck to the modal body: the aircraft, its modes, and which of them matter."""

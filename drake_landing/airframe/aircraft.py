@@ -1,0 +1,78 @@
+"""What a case says of the aircraft, complete."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from drake_landing.case.scenario import Lift, Scenario
+from drake_landing.gears.data import LandingGear
+from fem.deck.deck import Deck
+from fem.deck.reader import read_deck
+from fem.structure import Structure
+
+
+@dataclass(frozen=True, kw_only=True)
+class Aircraft:
+    """What a case says of the aircraft, complete.
+
+    Attributes:
+        name: for tables and titles.
+        topology: label of the gear attachment.
+        deck: bulk-data file of the airframe.
+        gears: in the axes of the deck.
+        monitoring: point -> grid id.
+        interface: grids that a reduction keeps, beside attachment and monitoring.
+        scenario: of the case, with the nodes that carry the lift.
+        units: of the deck; what `structure` gives is SI.
+        notices: what the user should know.
+        read: how the file becomes a deck; matrices come with all their digits.
+    """
+
+    name: str
+    topology: str
+    deck: Path
+    gears: tuple[LandingGear, ...]
+    monitoring: Mapping[str, int]
+    scenario: Scenario
+    interface: tuple[int, ...] = ()
+    units: str = "SI"
+    notices: tuple[str, ...] = ()
+    read: Callable[[Path], Deck] = read_deck
+
+    def structure(self) -> Structure:
+        """The airframe's finite-element model.
+
+        Raises:
+            InputError: everything that is wrong with its deck.
+        """
+        return Structure.from_deck(self.read(self.deck))
+
+    @property
+    def attachment_nodes(self) -> tuple[int, ...]:
+        """Grids of all gears."""
+        return tuple(node for gear in self.gears for node in gear.attachments.values())
+
+    @property
+    def lift_nodes(self) -> tuple[int, ...]:
+        """Grids that carry the lift; none where it balances the weight unseen."""
+        lift = self.scenario.lift
+        return lift.nodes if isinstance(lift, Lift) else ()
+
+    @property
+    def multibody_nodes(self) -> list[int]:
+        """Grids that the multibody model knows, ascending."""
+        monitored = self.monitoring.values()
+        return sorted({*monitored, *self.attachment_nodes, *self.lift_nodes})
+
+    @property
+    def nodes(self) -> dict[int, str]:
+        """Grids that must exist -> field of the case that names them."""
+        wanted = dict.fromkeys(self.lift_nodes, "scenario.lift.nodes")
+        for name, grid in self.monitoring.items():
+            wanted[grid] = f"airframe.monitoring.{name}"
+        for gear in self.gears:
+            wanted[gear.attachment_node] = f"gears.{gear.name}.attachment_node"
+            for hold in gear.further_attachments:
+                field = f"gears.{gear.name}.further_attachments.{hold.name}.node"
+                wanted[hold.node] = field
+        return {**dict.fromkeys(self.interface, "airframe.interface"), **wanted}

@@ -1,0 +1,203 @@
+"""Whether landing gears fit the aircraft that they are to carry.
+
+What the data of one gear cannot tell: where it lies from its attachment node, and the
+load on it at rest. Wrong units and forgotten signs show there. All in the axes A.
+"""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.case.axes import gear_in_A
+from drake_landing.gears.bodies import mass_points, wheel_centres
+from drake_landing.gears.data import LandingGear, LeveredGear
+from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
+from drake_landing.landing.lift import STANDARD_GRAVITY
+from fem.errors import InputError
+from fem.structure import Structure
+from systems.lever_strut import LeverGeometry
+from systems.runway import Runway
+from systems.strut_law import StrutLaw
+from systems.tire_law import TireLaw
+
+Float64 = npt.NDArray[np.float64]
+
+_REACH = 10.0  # m, farther from its attachment node no part of a gear lies
+_LEAST_PRELOAD = 0.02  # of the static load; usual are 10 to 20 %
+_TYRE_FLATTENED = (0.005, 0.5)  # static deflection over radius, usual are 0.03 to 0.3
+
+
+def check_gears(
+    structure: Structure, aircraft: Aircraft, R_AB: Float64
+) -> tuple[str, ...]:
+    """Problems and remarks of an aircraft's gears.
+
+    Args:
+        structure: airframe, in B.
+        aircraft: gears in B, whose attachment nodes exist.
+        R_AB: (3, 3).
+
+    Returns:
+        What is odd, see `gear_remarks`.
+
+    Raises:
+        InputError: what cannot be, see `gear_problems`.
+    """
+    points = structure.points
+    gears = [gear_in_A(gear, R_AB) for gear in aircraft.gears]
+    places = {
+        gear.name: R_AB @ points.xyz[points.rows([gear.attachment_node])[0]]
+        for gear in gears
+    }
+    problems = gear_problems(gears, places)
+    if problems:
+        raise InputError(problems)
+    weight = structure.weight
+    return gear_remarks(gears, weight.total, R_AB @ weight.center)
+
+
+def gear_problems(
+    gears: Sequence[LandingGear], places: Mapping[str, Float64]
+) -> list[str]:
+    """What cannot be: each begins with the field, `gears.main_left.axle: found ...`.
+
+    Args:
+        gears: in A.
+        places: name of each attachment -> (3,) its node in A, m.
+    """
+    problems = []
+    for gear in gears:
+        node = places[gear.name]
+        parts = {"fitting": gear.fitting, **gear.moving_parts}
+        points = {f"{name}.cg": np.array(part.cg) for name, part in parts.items()}
+        points |= {
+            name: np.atleast_2d(getattr(gear, name))[0] for name in gear.positions
+        }
+        for name, p in points.items():
+            away = float(np.linalg.norm(p - node))
+            if away > _REACH:
+                problems.append(
+                    f"gears.{gear.name}.{name}: found a point {away:.0f} m away from "
+                    f"the attachment node {gear.attachment_node}, expected less than "
+                    f"{_REACH:g} m; all lengths are in m, in the frame of the deck"
+                )
+        field = "axle" if "axle" in gear.positions else "axle_positions"
+        height = max(axle[2] for axle in gear.axles) - node[2]
+        if 0.0 <= height <= _REACH:
+            problems.append(
+                f"gears.{gear.name}.{field}: found an axle {height:.4g} m above the "
+                f"attachment node {gear.attachment_node}, expected it below"
+            )
+    return problems
+
+
+def gear_remarks(
+    gears: Sequence[LandingGear], mass: float, p_AG: npt.ArrayLike
+) -> tuple[str, ...]:
+    """What is odd: loads at rest against gas and tyres; each begins with the field.
+
+    Args:
+        gears: in A.
+        mass: of the airframe, kg.
+        p_AG: (3,) its centre of gravity in A, m.
+    """
+    remarks = _direction_remarks(gears, float(np.asarray(p_AG)[0]))
+    loads = static_loads(gears, mass, p_AG)
+    if loads is None:
+        return tuple(remarks)
+    for gear in gears:
+        load = loads[gear.name]
+        if load <= 0.0:
+            remarks.append(
+                f"gears.{gear.name}: carries {load / 1e3:.4g} kN at rest: the centre "
+                "of gravity lies outside the wheels"
+            )
+            continue
+        found = (*_gas_remarks(gear, load), *_tyre_remarks(gear, load))
+        remarks += [f"gears.{gear.name}.{text}" for text in found]
+    return tuple(remarks)
+
+
+def _direction_remarks(gears: Sequence[LandingGear], centre: float) -> list[str]:
+    """Nose gears behind the centre of gravity: the deck may point the other way."""
+    behind = {
+        gear.name: np.mean([axle[0] for axle in gear.axles]) - centre for gear in gears
+    }
+    return [
+        f"airframe.axes.forward: gear {name} lies {away:.3g} m behind the centre of "
+        "gravity, seen in the direction of flight: does the deck point that way?"
+        for name, away in behind.items()
+        if name.startswith("nose") and away > 0.0
+    ]
+
+
+def static_loads(
+    gears: Sequence[LandingGear], mass: float, p_AG: npt.ArrayLike
+) -> dict[str, float] | None:
+    """Vertical load on each gear at rest, by the lever rule, N; None without balance.
+
+    Of more than three gears those of the least sum of squares.
+    """
+    items = [(mass, np.asarray(p_AG, dtype=float))]
+    for gear in gears:
+        items += mass_points(gear)
+    weight = STANDARD_GRAVITY * np.array([m for m, _ in items])
+    arms = np.array([p for _, p in items])
+    feet = [np.mean(list(wheel_centres(gear).values()), axis=0) for gear in gears]
+    rows = np.array([[1.0, foot[0], foot[1]] for foot in feet]).T
+    wanted = np.array([weight.sum(), weight @ arms[:, 0], weight @ arms[:, 1]])
+    loads = np.linalg.lstsq(rows, wanted, rcond=1e-9)[0]
+    if np.abs(rows @ loads - wanted).max() > 1e-6 * wanted[0]:
+        return None
+    return {gear.name: float(load) for gear, load in zip(gears, loads)}
+
+
+def _gas_remarks(gear: LandingGear, load: float) -> list[str]:
+    parameters = shock_absorber_parameters(gear.shock_absorber)
+    below = (gear.mass - gear.fitting.mass) * STANDARD_GRAVITY
+    wanted = (load - below) * _strut_share(gear)
+    full = StrutLaw(parameters).gas_force(parameters.max_stroke, parameters.tunables)
+    preload = parameters.gas.precharge
+    at_rest = f"the shock absorber carries {wanted / 1e3:.4g} kN at rest"
+    if preload >= wanted:
+        return [
+            f"shock_absorber.precharge_force: found {preload / 1e3:.4g} kN, but "
+            f"{at_rest}: it stays extended"
+        ]
+    if full <= wanted:
+        return [
+            f"shock_absorber: the gas gives {full / 1e3:.4g} kN at full stroke, but "
+            f"{at_rest}: it bottoms"
+        ]
+    if preload < _LEAST_PRELOAD * wanted:
+        return [
+            f"shock_absorber.precharge_force: found {preload:.4g} N, but {at_rest}; "
+            "usual are 10 to 20 % of that"
+        ]
+    return []
+
+
+def _strut_share(gear: LandingGear) -> float:
+    """Force of the shock absorber over the load on the axle, extended."""
+    if not isinstance(gear, LeveredGear):
+        return 1.0
+    pivot = np.array(gear.pivot)
+    ends = np.array([gear.absorber_upper, gear.absorber_lower]) - pivot
+    geometry = LeverGeometry.between(*ends, (0.0, 1.0, 0.0))
+    return abs((gear.axle[0] - pivot[0]) / geometry.ratio(0.0))
+
+
+def _tyre_remarks(gear: LandingGear, load: float) -> list[str]:
+    tyre = tire_parameters(gear.tyre)
+    law, each = TireLaw(tyre, Runway()), load / len(gear.wheel_names)
+    low, high = (share * tyre.radius for share in _TYRE_FLATTENED)
+    if law.elastic_force(low) < each < law.elastic_force(high):
+        return []
+    field = "load_table" if gear.tyre.load_table else "stiffness"
+    side, bound = ("less", low) if each <= law.elastic_force(low) else ("more", high)
+    return [
+        f"tyre.{field}: at rest {each / 1e3:.4g} kN flatten the tyre by {side} than "
+        f"{bound:.3g} m; stiffness is in N/m"
+    ]

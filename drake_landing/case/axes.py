@@ -1,0 +1,56 @@
+"""From the deck's axes B to the axes A of the multibody model and back.
+
+A is x aft, y to starboard, z up, with the origin of B. For the reference aircraft both
+are the same. A turn between them is a signed permutation, hence exact.
+"""
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from drake_landing.case.schema import Axes
+from drake_landing.gears.data import LandingGear, RigidPart
+
+Float64 = npt.NDArray[np.float64]
+
+
+def rotation_AB(axes: Axes) -> Float64:
+    """(3, 3) R_AB: components in A of a vector given in B."""
+    aft, up = -_unit(axes.forward), _unit(axes.up)
+    return np.stack([aft, np.cross(up, aft), up])
+
+
+def gear_in_A(gear: LandingGear, R_AB: Float64) -> LandingGear:
+    """A gear whose positions, directions and inertias are given in B, in A."""
+    places = {name: _turned(R_AB, getattr(gear, name)) for name in gear.positions}
+    parts = {"fitting": gear.fitting, **gear.moving_parts}
+    turned = {name: _part_in_A(part, R_AB) for name, part in parts.items()}
+    further = tuple(
+        hold.model_copy(update={"directions": _turned(R_AB, hold.directions)})
+        for hold in gear.further_attachments
+    )
+    return gear.model_copy(update={**places, **turned, "further_attachments": further})
+
+
+def _unit(axis: str) -> Float64:
+    unit = np.zeros(3)
+    unit["xyz".index(axis[-1])] = -1.0 if axis.startswith("-") else 1.0
+    return unit
+
+
+def _turned(R_AB: Float64, vectors: Any) -> Any:
+    """One vector, or a tuple of them, as tuples."""
+    turned = np.asarray(vectors, dtype=float) @ R_AB.T
+    if turned.ndim == 1:
+        return tuple(turned.tolist())
+    return tuple(tuple(vector) for vector in turned.tolist())
+
+
+def _part_in_A(part: RigidPart, R_AB: Float64) -> RigidPart:
+    return part.model_copy(
+        update={
+            "cg": _turned(R_AB, part.cg),
+            "inertia": _turned(np.abs(R_AB), part.inertia),
+        }
+    )

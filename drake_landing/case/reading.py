@@ -1,0 +1,206 @@
+"""Case files: YAML in, every problem at once with its line and path.
+
+A problem reads `landing.yaml:12: scenario.sink_rte: unknown key; did you mean
+'sink_rate'?`.
+"""
+
+import json
+import re
+from pathlib import Path
+from typing import Any, get_args
+
+import yaml
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+
+from drake_landing.case.places import Places
+from drake_landing.case.schema import Case
+from fem.errors import InputError, nearest
+
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+Loc = tuple[int | str, ...]
+
+
+def load_case(path: Path) -> Case:
+    """Reads and validates a case file; a deck's path is taken relative to it.
+
+    Raises:
+        InputError: the file cannot be read, or its content is not a valid case.
+    """
+    text = _read(path)
+    if re.search(r"(?im)^\s*(begin\s+bulk|cend|enddata)", text):
+        raise InputError(
+            f"{path}: is a Nastran deck, expected a case file (YAML), which names the "
+            "deck in airframe.deck"
+        )
+    return parse_case(text, file=str(path), folder=path.parent)
+
+
+def parse_case(text: str, *, file: str = "<case>", folder: Path | None = None) -> Case:
+    """Validates the text of a case.
+
+    Args:
+        text: YAML.
+        file: how messages name the source.
+        folder: of relative paths.
+    """
+    try:
+        tree = yaml.compose(text, Loader=yaml.SafeLoader)
+        data = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise InputError(_syntax_problem(file, error)) from None
+    if not isinstance(tree, yaml.MappingNode):
+        raise InputError(
+            f"{file}:1: expected a mapping of sections, found {_kind(data)}"
+        )
+    places = Places.of(file, tree, frozenset(Case.model_fields))
+    problems = [f"{file}:{line}: {text}" for line, text in _repeated_keys(tree)]
+    data.pop("$schema", None)  # for editors
+    try:
+        case = Case.model_validate(data, context={"folder": folder})
+    except ValidationError as error:
+        found = [_problem(places, dict(e)) for e in error.errors()]
+        problems += [f"{file}:{line}: {text}" for line, text in sorted(set(found))]
+        raise InputError(problems) from None
+    if problems:
+        raise InputError(problems)
+    return case.written_at(places)
+
+
+def case_text(case: Case) -> str:
+    """The case as YAML, all defaults written out."""
+    data = json.loads(case.model_dump_json())
+    return yaml.safe_dump(data, sort_keys=False, allow_unicode=True)
+
+
+def schema_text() -> str:
+    """JSON schema of a case file."""
+    schema = {"$schema": _DIALECT, **Case.model_json_schema()}
+    return json.dumps(schema, indent=2, ensure_ascii=False)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such case file") from None
+    except IsADirectoryError:
+        raise InputError(f"{path}: is a folder, expected a case file") from None
+    except PermissionError:
+        raise InputError(f"{path}: may not be read (permission denied)") from None
+    except UnicodeDecodeError as error:
+        raise InputError(
+            f"{path}: not a UTF-8 text file (byte {error.start})"
+        ) from None
+
+
+def _syntax_problem(file: str, error: yaml.YAMLError) -> str:
+    mark = getattr(error, "problem_mark", None)
+    line = f"{mark.line + 1}" if mark else "1"
+    return f"{file}:{line}: not valid YAML: {getattr(error, 'problem', None) or error}"
+
+
+def _kind(data: Any) -> str:
+    names = {dict: "a mapping", list: "a list", str: "a text"}
+    return "nothing" if data is None else names.get(type(data), repr(data))
+
+
+def _repeated_keys(node: yaml.Node, path: str = "") -> list[tuple[int, str]]:
+    """YAML lets the last of equal keys win silently: that hides mistakes."""
+    found: list[tuple[int, str]] = []
+    if isinstance(node, yaml.MappingNode):
+        seen: dict[str, int] = {}
+        for key, value in node.value:
+            line, name = key.start_mark.line + 1, f"{path}{key.value}"
+            if key.value in seen:
+                found.append((line, f"{name}: already given in line {seen[key.value]}"))
+            seen.setdefault(key.value, line)
+            found += _repeated_keys(value, f"{name}.")
+    elif isinstance(node, yaml.SequenceNode):
+        for i, value in enumerate(node.value):
+            found += _repeated_keys(value, f"{path}{i}.")
+    return found
+
+
+def _problem(places: Places, error: dict[str, Any]) -> tuple[int, str]:
+    """Line and text of one pydantic error."""
+    models, field, loc = _resolve(error["loc"])
+    path = ".".join(map(str, loc))
+    text = _explain(error, models, field, loc)
+    if not path:  # of the whole case: the text itself names the field
+        return places.line(text.partition(":")[0]), text
+    return places.line(path), f"{path}: {text}"
+
+
+def _explain(
+    error: dict[str, Any],
+    models: list[type[BaseModel]],
+    field: FieldInfo | None,
+    loc: Loc,
+) -> str:
+    meaning = f" ({field.description})" if field and field.description else ""
+    if error["type"] == "extra_forbidden":
+        known = sorted({name for model in models for name in model.model_fields})
+        clause = nearest(str(loc[-1]), known)
+        return "unknown key" + (clause or f"; known are {', '.join(known)}")
+    if error["type"] == "missing":
+        return f"missing{meaning}"
+    message = str(error["msg"]).removeprefix("Value error, ")
+    if error["type"] == "gear_kind":
+        return f"kind: found {error['input'].get('kind')!r}, {message}"
+    if error["type"] == "value_error" and not _is_scalar(error["input"]):
+        return message
+    if error["type"] in ("model_type", "dict_type"):
+        message = "a mapping of keys and values"
+    if error["type"] == "string_pattern_mismatch":
+        message = f"text that matches {error['ctx']['pattern']}"
+    message = message.removeprefix("Input should be ")
+    if error["type"] == "literal_error" and isinstance(error["input"], str):
+        choices = str(error["ctx"]["expected"]).replace("'", "").replace(" or ", ", ")
+        message += nearest(error["input"], choices.split(", "))
+    expected = message if message.startswith("expected") else f"expected {message}"
+    return f"found {_show(error['input'])}, {expected}{meaning}"
+
+
+def _is_scalar(value: Any) -> bool:
+    return value is None or isinstance(value, str | int | float | bool)
+
+
+def _show(value: Any) -> str:
+    text = repr(value) if _is_scalar(value) else _kind(value)
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _resolve(loc: Loc) -> tuple[list[type[BaseModel]], FieldInfo | None, Loc]:
+    """The models that hold the last key, its field, and the path without union tags."""
+    models: list[type[BaseModel]] = [Case]
+    field: FieldInfo | None = None
+    path: list[int | str] = []
+    for i, step in enumerate(loc):
+        if isinstance(step, int):
+            path.append(step)
+            continue
+        fields = [m.model_fields[step] for m in models if step in m.model_fields]
+        last = i == len(loc) - 1
+        if not fields and not last and field is not None:
+            if field.annotation and "dict" in str(field.annotation):
+                path.append(step)
+            continue  # a tag that pydantic adds for the branch of a union
+        if not fields and field is not None and _is_tag(step):
+            continue
+        path.append(step)
+        field = fields[0] if fields else None
+        if not last:
+            models = [m for f in fields for m in _models_in(f.annotation)]
+    return models, field, tuple(path)
+
+
+def _is_tag(step: str) -> bool:
+    return any(mark in step for mark in "[]('")
+
+
+def _models_in(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [m for part in get_args(annotation) for m in _models_in(part)]

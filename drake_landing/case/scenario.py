@@ -1,0 +1,271 @@
+"""What an aircraft does at the start of a run: touches down, or rolls on its gears.
+
+Zero angles: level, along the track. A `preset` stands for a condition of CS-25 and
+fills in whatever is not given beside it.
+"""
+
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    ValidationInfo,
+    model_validator,
+)
+
+from drake_landing.case.presets import LANDING_SINK_RATE, PRESETS, Preset, PresetName
+from drake_landing.case.section import Section, number
+
+
+class Lift(Section):
+    """Gravity acts, and nodes of the wing carry the aircraft."""
+
+    nodes: tuple[int, ...] = Field(
+        default=(),
+        description="grids that carry the lift, round the centre of gravity; the "
+        "built-in models have their own",
+    )
+    shares: tuple[float, ...] | None = Field(
+        default=None,
+        description="of each node, >= 0, tilted such that the resultant passes the "
+        "centre of gravity; default equal",
+    )
+    factor: float = number("lift over weight at touchdown", "1", 1.0, ge=0, le=1.5)
+    decay_start: float = number("when the lift begins to fall", "s", 0.0, ge=0)
+    decay_duration: float | None = Field(
+        default=None, gt=0, description="how long it falls, s; default: it stays"
+    )
+    remaining: float = number("lift over weight after the fall", "1", 0.0, ge=0, le=1.5)
+
+    @model_validator(mode="after")
+    def _one_share_each(self) -> Self:
+        if self.shares is not None and len(self.shares) != len(self.nodes):
+            raise ValueError(
+                f"shares: {len(self.shares)} for {len(self.nodes)} nodes, expected one "
+                "each"
+            )
+        return self
+
+
+class Bump(Section):
+    """One full 1-cosine."""
+
+    kind: Literal["bump"]
+    height: float = number("height, negative for a dip", "m", ge=-1, le=1)
+    length: float = number("length", "m", gt=0)
+    start: float = number("distance ahead of the start", "m", 5.0)
+
+
+class WaveTrain(Section):
+    """A sine without end."""
+
+    kind: Literal["waves"]
+    amplitude: float = number("amplitude", "m", ge=-1, le=1)
+    wavelength: float = number("wavelength", "m", gt=0)
+    start: float = number("distance of a zero crossing ahead of the start", "m", 0.0)
+
+
+class Ramp(Section):
+    """A step with a smooth ramp."""
+
+    kind: Literal["step"]
+    height: float = number("height, negative for a step down", "m", ge=-1, le=1)
+    ramp: float = number("length of the ramp", "m", gt=0)
+    start: float = number("distance ahead of the start", "m", 5.0)
+
+
+class Measured(Section):
+    """A measured profile."""
+
+    kind: Literal["measured"]
+    file: Path = Field(
+        description="CSV of distance and height, m, relative to the case file"
+    )
+
+    @model_validator(mode="after")
+    def _readable(self, info: ValidationInfo) -> Self:
+        folder = (info.context or {}).get("folder")
+        if folder:
+            object.__setattr__(self, "file", Path(folder, self.file))
+        if not self.file.is_file():
+            raise ValueError(f"no such file: {self.file}")
+        return self
+
+
+_KINDS = {"bump": Bump, "waves": WaveTrain, "step": Ramp, "measured": Measured}
+
+
+def _profile_tag(value: Any) -> str:
+    kind = value.get("kind") if isinstance(value, dict) else getattr(value, "kind", "")
+    return f"({kind})"
+
+
+AnyProfile = Annotated[
+    Annotated[Bump, Tag("(bump)")]
+    | Annotated[WaveTrain, Tag("(waves)")]
+    | Annotated[Ramp, Tag("(step)")]
+    | Annotated[Measured, Tag("(measured)")],
+    Discriminator(
+        _profile_tag,
+        custom_error_type="profile_kind",
+        custom_error_message=f"expected a mapping with kind {', '.join(_KINDS)}",
+    ),
+]
+
+
+class RunwaySection(Section):
+    """The ground."""
+
+    surface: Literal["dry", "wet", "icy"] = Field(
+        default="dry", description="sets the friction of the tyres"
+    )
+    friction_factor: float | None = Field(
+        default=None,
+        ge=0,
+        description="factor on the tyres' dry friction, in place of the surface's",
+    )
+    profile: AnyProfile | None = Field(
+        default=None,
+        description="height over distance ahead of the foremost tyre; default flat",
+    )
+
+
+AnyLift = Annotated[
+    Annotated[Literal["weight", "none"], Tag("(name)")]
+    | Annotated[Lift, Tag("(lift)")],
+    Discriminator(lambda value: "(name)" if isinstance(value, str) else "(lift)"),
+]
+
+
+def _sink_rate_or_preset(schema: dict[str, Any]) -> None:
+    """A preset, and an aircraft that rolls, bring a sink rate with them."""
+    schema["required"].remove("sink_rate")
+    rolling = {"properties": {"start": {"const": "rolling"}}, "required": ["start"]}
+    presets = {"properties": {"preset": {"type": "string"}}, "required": ["preset"]}
+    schema["anyOf"] = [{"required": ["sink_rate"]}, presets, rolling]
+
+
+class Scenario(Section):
+    """State of the aircraft at the start. Zero angles: level, on the track."""
+
+    model_config = ConfigDict(json_schema_extra=_sink_rate_or_preset)
+
+    preset: PresetName | None = Field(
+        default=None,
+        description="condition of CS-25 that fills in what is not given here",
+    )
+    start: Literal["touchdown", "rolling"] = Field(
+        default="touchdown",
+        description="touchdown: just above the runway; rolling: at rest on the gears, "
+        "but for the forward speed",
+    )
+    sink_rate: float = number(
+        "vertical speed at touchdown (rolling: its energy is the reference of the "
+        "energy balance)",
+        "m/s",
+        gt=0,
+        le=10,
+    )
+    forward_speed: float = number("along the runway", "m/s", 67.0, ge=0, le=150)
+    side_speed: float = number("toward starboard", "m/s", 0.0, ge=-30, le=30)
+    pitch: float = number("nose up", "deg", 0.0, ge=-20, le=30)
+    roll: float = number("starboard wing down", "deg", 0.0, ge=-30, le=30)
+    yaw: float = number(
+        "nose to starboard of the track (drift, side-slip)", "deg", 0.0, ge=-45, le=45
+    )
+    pitch_rate: float = number("nose up", "deg/s", 0.0, ge=-30, le=30)
+    roll_rate: float = number("starboard wing down", "deg/s", 0.0, ge=-60, le=60)
+    yaw_rate: float = number("nose to starboard", "deg/s", 0.0, ge=-30, le=30)
+    lift: AnyLift = Field(
+        default="weight",
+        description="weight: lift balances the weight, neither acts, all responses are "
+        "increments to steady flight; none: gravity alone; or nodes that carry it",
+    )
+    braking: float = number(
+        "share of the gears' brake torques that is applied", "1", 0.0, ge=0, le=2
+    )
+    runway: RunwaySection = Field(default=RunwaySection(), description="the ground")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _fill_in(cls, data: Any) -> Any:
+        if not isinstance(data, dict):
+            return data
+        name = data.get("preset")
+        preset = PRESETS.get(name) if isinstance(name, str) else None
+        filled = {**(preset.values if preset else {}), **data}
+        unknown = name is not None and preset is None  # one message is enough
+        if filled.get("start") == "rolling" or unknown:
+            filled.setdefault("sink_rate", LANDING_SINK_RATE)
+        return filled
+
+    @model_validator(mode="after")
+    def _rolling(self) -> Self:
+        if self.start == "touchdown":
+            return self
+        if self.lift == "weight":
+            raise ValueError(
+                "lift: found 'weight', expected none or nodes where the aircraft rolls "
+                "on its gears: gravity must act"
+            )
+        moving = ("side_speed", "pitch_rate", "roll_rate", "yaw_rate")
+        given = (*moving, "pitch", "roll", "yaw")
+        turned = [name for name in given if getattr(self, name)]
+        if turned:
+            raise ValueError(
+                f"{', '.join(turned)}: an aircraft that rolls at the start stands as "
+                "its gears let it, expected 0"
+            )
+        return self
+
+    @property
+    def preset_data(self) -> Preset | None:
+        """Of the preset, if any."""
+        return PRESETS[self.preset] if self.preset else None
+
+    @property
+    def gravity(self) -> bool:
+        """Gravity acts."""
+        return self.lift != "weight"
+
+    @property
+    def story(self) -> str:
+        """What the aircraft does, e.g. `touched down at 3.05 m/s sink rate ...`."""
+        angles = {"pitch": self.pitch, "roll": self.roll, "yaw": self.yaw}
+        turned = [f"{name} {value:g}°" for name, value in angles.items() if value]
+        if self.start == "rolling":
+            parts = [f"rolled at {self.forward_speed:g} m/s"]
+        else:
+            parts = [
+                f"touched down at {self.sink_rate:g} m/s sink rate and "
+                f"{self.forward_speed:g} m/s",
+                *(turned or ["level"]),
+            ]
+        profile = self.runway.profile
+        parts += [f"{self.runway.surface} runway"] * (self.runway.surface != "dry")
+        parts += [f"profile: {profile.kind}"] if profile else []
+        parts += ["brakes applied"] * (self.braking > 0)
+        parts += ["preset " + self.preset] if self.preset else []
+        return ", ".join(parts)
+
+    @property
+    def lift_story(self) -> str:
+        """How lift and weight act."""
+        if self.lift == "weight":
+            return "lift balances the weight, neither acts"
+        if self.lift == "none" or not isinstance(self.lift, Lift):
+            return "gravity without lift"
+        lift = self.lift
+        text = (
+            f"gravity, lift {lift.factor:g} of the weight over {len(lift.nodes)} grids"
+        )
+        if lift.decay_duration is None:
+            return text
+        end = lift.decay_start + lift.decay_duration
+        return (
+            f"{text}, falling to {lift.remaining:g} from {lift.decay_start:g} to "
+            f"{end:g} s"
+        )

@@ -1,0 +1,337 @@
+"""A landing case: everything that one run of the process depends on, validated.
+
+Every field says its meaning, unit and range; `cases_io` reads it from YAML and reports
+problems with their line, `drake-landing check --schema` prints it as a JSON schema.
+Lengths in m, speeds in m/s, angles in degrees, times in s.
+"""
+
+import re
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    PlainSerializer,
+    PrivateAttr,
+    Tag,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+    model_validator,
+)
+
+from drake_landing.case.parts import Parts
+from drake_landing.case.places import Places
+from drake_landing.case.scenario import Scenario as Scenario
+from drake_landing.case.section import Section, number
+from drake_landing.gears.data import AnyGear
+
+Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
+Model = Literal["con", "pre", "full"]
+UnitSystem = Literal["SI", "mm-t-N", "in-lbf"]
+Basis = Literal["full-modes", "craig-bampton", "guyan"]
+_SELECTION = (
+    r"^\s*(?:(all)|count\s+(\d+)|below\s+(\d+(?:\.\d*)?)\s*Hz|relevance\s+(\d+)"
+    r"|relevance\s+error\s*<=\s*(\d+(?:\.\d*)?)\s*%|pulses\s+(\d+))\s*$"
+)
+
+
+# The name of a known set, or a list; tags are in parentheses, see `cases_io`.
+Gears = Annotated[
+    Annotated[Literal["d150"], Tag("(name)")]
+    | Annotated[tuple[AnyGear, ...], Tag("(list)")],
+    Discriminator(lambda value: "(name)" if isinstance(value, str) else "(list)"),
+]
+
+
+class Selection(Section):
+    """Which elastic modes: all, the lowest, those below a frequency, or those that
+    matter most under the gears' pulses: so many of them, or as many as an error needs;
+    or shapes that are combined from them for these pulses.
+    """
+
+    kind: Literal["all", "count", "below", "relevance", "error", "pulses"]
+    value: float = 0.0  # number of modes, Hz, or %
+
+    def __str__(self) -> str:
+        value = f"{self.value:g}"
+        return {
+            "all": "all",
+            "below": f"below {value} Hz",
+            "error": f"relevance error <= {value} %",
+        }.get(self.kind, f"{self.kind} {value}")
+
+    @property
+    def by_relevance(self) -> bool:
+        """The modes come from candidates, see `relevance` and `pulse_modes`."""
+        return self.kind in ("relevance", "error", "pulses")
+
+
+def parse_selection(text: Any) -> Any:
+    """`all`, `count N`, `below F Hz`, `relevance N` or `error <= x %`, `pulses N`."""
+    if isinstance(text, Selection):
+        return text
+    match = re.match(_SELECTION, text) if isinstance(text, str) else None
+    if match is None:
+        raise ValueError(
+            "expected 'count N', 'below F Hz', 'all', 'relevance N', "
+            "'relevance error <= x %' or 'pulses N'"
+        )
+    kinds = ("all", "count", "below", "relevance", "error", "pulses")
+    kind, value = next((k, v) for k, v in zip(kinds, match.groups()) if v)
+    return Selection(kind=kind, value=0.0 if kind == "all" else float(value))
+
+
+SelectionText = Annotated[
+    Selection,
+    BeforeValidator(parse_selection),
+    PlainSerializer(str),
+    WithJsonSchema({"type": "string", "pattern": _SELECTION}),
+]
+
+
+class Axes(Section):
+    """Where the deck's basic frame points."""
+
+    forward: Axis = Field(default="-x", description="direction of flight")
+    up: Axis = Field(default="z", description="up, in level attitude")
+
+    @model_validator(mode="after")
+    def _perpendicular(self) -> Self:
+        if self.forward[-1] == self.up[-1]:
+            raise ValueError(
+                f"forward {self.forward} and up {self.up} must be different axes"
+            )
+        return self
+
+
+class Matrices(Section):
+    """Reduced matrices of the user's own, instead of a deck: basic frame."""
+
+    files: tuple[Path, ...] = Field(
+        description="DMIG (punch), OUTPUT4 or HDF5 of MSC Nastran, relative to the "
+        "case file",
+        min_length=1,
+    )
+    grids: Path = Field(
+        description="CSV table of the interface grids in the order of the matrices: "
+        "id, x, y, z [, components]",
+    )
+    stiffness: str = Field(default="KRED", description="name of K")
+    mass: str = Field(default="MRED", description="name of M")
+    damping: str = Field(default="BRED", description="name of B; may be absent")
+    recovery: str = Field(
+        default="RRED",
+        description="name of the motion of grids without components",
+    )
+
+    @field_validator("files", "grids", mode="after")
+    @classmethod
+    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
+        folder = (info.context or {}).get("folder")
+        if not folder:
+            return found
+        if isinstance(found, tuple):
+            return tuple(Path(folder, path) for path in found)
+        return Path(folder, found)
+
+
+class Airframe(Section):
+    """The airframe's finite-element model and its modal body."""
+
+    model: Model | None = Field(
+        default=None, description="a built-in reference aircraft, instead of `deck`"
+    )
+    topology: str | None = Field(
+        default=None,
+        description="how the built-in model holds its gears: 1, 2 or distributed, by "
+        "default the model's first; for a deck a mere label of the result tables",
+        coerce_numbers_to_str=True,
+        json_schema_extra={
+            "anyOf": [{"type": t} for t in ("string", "integer", "null")]
+        },
+    )
+    deck: Path | None = Field(
+        default=None,
+        description="Nastran bulk-data file, relative to the case file",
+    )
+    units: UnitSystem = Field(
+        default="SI",
+        description="units of the deck, or of the matrices: SI (m, kg, N), mm-t-N, or "
+        "in-lbf (mass in lbf s²/in); all else in a case, gears included, is SI",
+    )
+    ignore: tuple[str, ...] = Field(
+        default=(),
+        description="unsupported cards of the deck to go on without, e.g. [CBEND]",
+    )
+    matrices: Matrices | None = Field(
+        default=None,
+        description="reduced matrices and their grids, instead of `deck`; the direct "
+        "transient then runs on these",
+    )
+    axes: Axes = Field(default=Axes(), description="axes of the deck's basic frame")
+    basis: Basis = Field(
+        default="full-modes",
+        description="reduction before the eigenmodes: full-modes (none), guyan, "
+        "craig-bampton",
+    )
+    interface: tuple[int, ...] = Field(
+        default=(),
+        description="grids that a reduction keeps, beside the attachment nodes, the "
+        "monitoring points and the deck's ASET",
+    )
+    fixed_interface_modes: SelectionText = Field(
+        default=Selection(kind="below", value=150.0),
+        description="generalised coordinates of craig-bampton: count N, below F Hz",
+    )
+    select: SelectionText = Field(
+        default=Selection(kind="below", value=50.0),
+        description="elastic modes of the multibody model: count N, below F Hz, all; "
+        "relevance N, relevance error <= x %: those that the gears excite and the "
+        "monitoring points feel most; pulses N: shapes combined from these",
+    )
+    candidates: float = number(
+        "modes below this frequency are candidates where relevance selects",
+        "Hz",
+        260.0,
+        gt=0,
+        le=5000,
+    )
+    residual_vectors: bool = Field(
+        default=False,
+        description="add the static responses to loads at the attachment nodes that "
+        "the selected modes lack (attachment modes); their high frequencies make the "
+        "multibody run slower",
+    )
+    monitoring: dict[str, int] = Field(
+        default={},
+        description="monitoring points: name and grid id; the built-in models have "
+        "their own",
+    )
+
+    @field_validator("deck", mode="after")
+    @classmethod
+    def _relative_to_case(cls, deck: Path | None, info: ValidationInfo) -> Path | None:
+        folder = (info.context or {}).get("folder")
+        return Path(folder, deck) if deck and folder else deck
+
+    @model_validator(mode="after")
+    def _one_source(self) -> Self:
+        given = [x is not None for x in (self.model, self.deck, self.matrices)]
+        if sum(given) != 1:
+            raise ValueError(
+                "give one of `model` (con, pre, full), `deck` (a file) or `matrices`"
+            )
+        if self.units != "SI" and self.model:
+            raise ValueError(
+                f"units: found {self.units}, expected SI: built-in models are in SI"
+            )
+        if self.fixed_interface_modes.by_relevance:
+            raise ValueError(
+                f"fixed_interface_modes: found '{self.fixed_interface_modes}', "
+                "expected 'count N', 'below F Hz' or 'all'; relevance is for `select`"
+            )
+        if not self.model and not self.monitoring:
+            raise ValueError(
+                "a deck or matrices need `monitoring` points: name and grid id"
+            )
+        return self
+
+
+class Simulation(Section):
+    """The multibody run."""
+
+    duration: float = number("from just above touchdown", "s", 1.0, gt=0, le=60)
+    integrator: Literal[
+        "runge_kutta3", "runge_kutta5", "bogacki_shampine3", "radau3"
+    ] = Field(default="runge_kutta3", description="Drake's integration scheme")
+    accuracy: float = number(
+        "error control of the integrator", "in units of the state", 1e-4, gt=0, le=1e-2
+    )
+    max_step: float = number("largest step", "s", 5e-3, gt=0, le=0.1)
+    slow_modes_above: float | None = Field(
+        default=None,
+        gt=0,
+        description="Hz; faster modes follow the loads by flexibility and damping "
+        "alone, which allows far larger steps; default: none do",
+    )
+    clearance: float = number(
+        "height of the lowest tyre over the runway at start", "m", 5e-3, gt=0, le=1
+    )
+
+
+class Transient(Section):
+    """The direct transient response of the full model."""
+
+    step: float = number("time step", "s", 5e-4, gt=0, le=0.01)
+    scheme: Literal["nastran", "generalised-alpha"] = Field(
+        default="nastran", description="time integration"
+    )
+    duration: float | None = Field(
+        default=None, gt=0, le=60, description="s; default: that of the simulation"
+    )
+
+
+def _named_schema(schema: dict[str, Any]) -> None:
+    """Case files may name the schema that editors check them against."""
+    named = {"type": "string", "description": "where editors find this schema"}
+    schema["properties"] = {"$schema": named, **schema["properties"]}
+
+
+class Case(Section):
+    """One landing, from the deck to the comparison."""
+
+    model_config = ConfigDict(json_schema_extra=_named_schema)
+
+    name: str = Field(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$",
+        description="names the run and its folder: letters, digits, . _ -",
+    )
+    title: str = Field(default="", description="one line for the report")
+    airframe: Airframe
+    gears: Gears = Field(
+        default="d150",
+        description="list of landing gears, or d150: those of the reference aircraft",
+    )
+    scenario: Scenario
+    simulation: Simulation = Simulation()
+    transient: Transient = Transient()
+    parts: Parts = Parts()
+    _places: Places = PrivateAttr(default=Places())
+
+    @property
+    def places(self) -> Places:
+        """Where its fields were written."""
+        return self._places
+
+    def written_at(self, places: Places) -> Self:
+        """The same case, with the places of its fields."""
+        case = self.model_copy()
+        case._places = places
+        return case
+
+    @model_validator(mode="after")
+    def _consistent(self) -> Self:
+        if self.gears == "d150":
+            if not self.airframe.model:
+                raise ValueError(
+                    "gears: a deck of your own needs its list of gears; d150 belongs "
+                    "to the built-in models"
+                )
+            return self
+        names = [gear.name for gear in self.gears]
+        if not names:
+            raise ValueError("gears: at least one landing gear is needed")
+        twice = sorted({name for name in names if names.count(name) > 1})
+        if twice:
+            raise ValueError(f"gears: name {', '.join(twice)} is used more than once")
+        return self
+
+    @property
+    def transient_duration(self) -> float:
+        """Of the direct transient response, s: never beyond the simulation."""
+        wanted = self.transient.duration or self.simulation.duration
+        return min(wanted, self.simulation.duration)

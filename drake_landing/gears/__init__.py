@@ -1,0 +1,1 @@
+"""Landing gears: their data, bodies, holds, and the systems that make them work."""

@@ -1,0 +1,299 @@
+"""The rigid bodies and joints of landing gears, added to a MultibodyPlant.
+
+A fitting (free, or joined to the world by the caller), what moves against it by the
+kind of gear, and wheels on revolute joints about their axle:
+
+    telescopic  fitting =prismatic= piston =revolute= wheels
+    levered     fitting =revolute= arm =revolute= wheels
+    bogie       fitting =prismatic= piston =revolute= beam =revolute= wheels
+
+All body frames are parallel to the airframe frame B in the extended gear, but that all
+below the fitting of a steered gear are turned by its angle: the fitting's origin is the
+attachment point, that of an arm or beam its pivot, a piston's the middle of the axle or
+the beam's pivot, a wheel's its centre.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import singledispatch
+from typing import cast
+
+import numpy as np
+import numpy.typing as npt
+from pydrake.math import RigidTransform, RotationMatrix
+from pydrake.multibody.plant import MultibodyPlant
+from pydrake.multibody.tree import (
+    FixedOffsetFrame,
+    Frame,
+    PrismaticJoint,
+    RevoluteJoint,
+    RigidBody,
+    RotationalInertia,
+    SpatialInertia,
+    UnitInertia,
+)
+
+from drake_landing.gears.data import (
+    BogieGear,
+    LandingGear,
+    LeveredGear,
+    RigidPart,
+    TelescopicGear,
+)
+from systems.lever_strut import LeverStrut
+from systems.rotations import exp
+
+Float64 = npt.NDArray[np.float64]
+
+_LATERAL = [0.0, 1.0, 0.0]
+
+
+@dataclass(frozen=True, kw_only=True)
+class GearBodies:
+    """What `AddLandingGear` added.
+
+    Attributes:
+        fitting: `<gear>_fitting`.
+        parts: what moves against it, by the names of `LandingGear.moving_parts`:
+            `<gear>_piston`, `<gear>_arm`, `<gear>_beam`; the last bears the wheels.
+        wheels: wheel name to body `<wheel>_wheel`.
+        strut: `<gear>_strut`, a joint whose translation is the stroke, or the shock
+            absorber over the joint `<gear>_pivot` of an arm.
+        spins: wheel name to joint `<wheel>_spin`, about the y axis of the wheel.
+        pitch: joint `<gear>_pitch` of a bogie beam, else None.
+    """
+
+    fitting: RigidBody
+    parts: dict[str, RigidBody]
+    wheels: dict[str, RigidBody]
+    strut: PrismaticJoint | LeverStrut
+    spins: dict[str, RevoluteJoint]
+    pitch: RevoluteJoint | None = None
+
+    @property
+    def joints(self) -> dict[str, PrismaticJoint | RevoluteJoint]:
+        """Joints that settle under load, not the spins: `strut` and `pitch`."""
+        strut = self.strut
+        joint = strut.joint if isinstance(strut, LeverStrut) else strut
+        pitch = {} if self.pitch is None else {"pitch": self.pitch}
+        return {"strut": joint, **pitch}
+
+
+@dataclass(frozen=True)
+class _Moving:
+    """The bodies between fitting and wheels; `p_BO` is the origin of the last."""
+
+    parts: dict[str, RigidBody]
+    strut: PrismaticJoint | LeverStrut
+    p_BO: Float64
+    pitch: RevoluteJoint | None = None
+
+
+def strut_axis(gear: LandingGear) -> Float64:
+    """(3,) direction in B along which the piston moves in compression: upward.
+
+    For a levered gear the direction of its extended shock absorber.
+    """
+    if isinstance(gear, LeveredGear):
+        ends = [_steered(gear, p) for p in (gear.absorber_upper, gear.absorber_lower)]
+        span = ends[0] - ends[1]
+        return span / np.sqrt(span @ span)
+    return _raked_axis(gear)
+
+
+def steering(gear: LandingGear) -> RotationMatrix:
+    """Turn of all below the fitting; nose to starboard is clockwise from above."""
+    angle = math.radians(gear.steering_deg)
+    if angle == 0.0:
+        return RotationMatrix()
+    levered = isinstance(gear, LeveredGear)
+    axis = np.array([0.0, 0.0, 1.0]) if levered else _raked_axis(gear)
+    return RotationMatrix(exp(-angle * axis[None])[0])
+
+
+def wheel_centres(gear: LandingGear) -> dict[str, Float64]:
+    """Wheel name -> (3,) centre in B (x aft, y starboard), gear extended, m."""
+    places = [
+        _steered(gear, np.array(axle) + offset * np.array(_LATERAL))
+        for axle in gear.axles
+        for offset in gear.wheel_offsets
+    ]
+    return dict(zip(gear.wheel_names, places))
+
+
+def mass_points(gear: LandingGear) -> list[tuple[float, Float64]]:
+    """Mass (kg) and centre of gravity (3,) in B (m) of each body, gear extended."""
+    points = [(gear.fitting.mass, np.array(gear.fitting.cg))]
+    parts = gear.moving_parts.values()
+    points += [(part.mass, _steered(gear, part.cg)) for part in parts]
+    return points + [(gear.wheel.mass, p) for p in wheel_centres(gear).values()]
+
+
+def _raked_axis(gear: LandingGear) -> Float64:
+    rake = math.radians(gear.rake_deg) if hasattr(gear, "rake_deg") else 0.0
+    return np.array([math.sin(rake), 0.0, math.cos(rake)])
+
+
+def _centre(gear: LandingGear) -> Float64:
+    """(3,) in B what the gear is steered about: pivot, or middle of the axle."""
+    if isinstance(gear, LeveredGear | BogieGear):
+        return np.array(gear.pivot)
+    return np.array(gear.axles[0])
+
+
+def _steered(gear: LandingGear, p_B: npt.ArrayLike) -> Float64:
+    """A point below the fitting, where the steering has turned it to."""
+    centre = _centre(gear)
+    return centre + steering(gear).matrix() @ (np.asarray(p_B) - centre)
+
+
+def AddLandingGear(
+    plant: MultibodyPlant, gear: LandingGear, p_BA: npt.ArrayLike
+) -> GearBodies:
+    """Adds one landing gear to a plant that is not yet finalised.
+
+    Args:
+        plant: the plant.
+        gear: the data of the gear, B being x aft, y to starboard, z up.
+        p_BA: (3,) attachment point, origin of the fitting, in B, m.
+
+    Returns:
+        Bodies and joints. The fitting is left without a joint: finalising the plant
+        frees it, unless the caller joins it to something first.
+
+    Raises:
+        ValueError: the shock absorber of a levered gear cannot do its stroke, or
+            shortens as the wheels go down.
+    """
+    attachment = np.asarray(p_BA, dtype=float)
+    fitting = plant.AddRigidBody(
+        f"{gear.name}_fitting", _inertia(gear.fitting, attachment)
+    )
+    moving = _add_moving(gear, plant, fitting, attachment)
+    carrier = list(moving.parts.values())[-1]
+    wheels, spins = {}, {}
+    straight = gear.model_copy(update={"steering_deg": 0.0})
+    for name, centre in wheel_centres(straight).items():
+        wheels[name] = plant.AddRigidBody(f"{name}_wheel", _wheel_inertia(gear))
+        spins[name] = plant.AddJoint(
+            RevoluteJoint(
+                f"{name}_spin",
+                _offset(plant, f"{name}_axle", carrier, centre - moving.p_BO),
+                wheels[name].body_frame(),
+                _LATERAL,
+            )
+        )
+    return GearBodies(
+        fitting=fitting,
+        parts=moving.parts,
+        wheels=wheels,
+        strut=moving.strut,
+        spins=spins,
+        pitch=moving.pitch,
+    )
+
+
+@singledispatch
+def _add_moving(
+    gear: LandingGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    raise TypeError(f"landing gear {gear.name}: unknown kind {type(gear).__name__}")
+
+
+@_add_moving.register
+def _(
+    gear: TelescopicGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    axle = np.array(gear.axle)
+    piston, strut = _add_piston(plant, gear, gear.piston, axle, fitting, p_BA)
+    return _Moving({"piston": piston}, strut, axle)
+
+
+@_add_moving.register
+def _(
+    gear: LeveredGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    pivot = np.array(gear.pivot)
+    arm = plant.AddRigidBody(f"{gear.name}_arm", _inertia(gear.arm, pivot))
+    joint = plant.AddJoint(
+        RevoluteJoint(
+            f"{gear.name}_pivot",
+            _offset(plant, f"{gear.name}_hinge", fitting, pivot - p_BA, steering(gear)),
+            arm.body_frame(),
+            _LATERAL,
+        )
+    )
+    ends = np.array([gear.absorber_upper, gear.absorber_lower]) - pivot
+    try:
+        strut = LeverStrut.over(joint, *ends)
+        strut.geometry.require_stroke(gear.shock_absorber.stroke)
+    except ValueError as error:
+        raise ValueError(f"landing gear {gear.name}: {error}") from None
+    # Turning by dθ about y lifts the axle by -(x_axle - x_pivot) dθ.
+    if -(gear.axle[0] - pivot[0]) * strut.geometry.ratio(0.0) <= 0.0:
+        raise ValueError(
+            f"landing gear {gear.name}: the shock absorber gets longer as the wheel "
+            "goes up; expected absorber_upper and absorber_lower such that it shortens"
+        )
+    return _Moving({"arm": arm}, strut, pivot)
+
+
+@_add_moving.register
+def _(
+    gear: BogieGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
+) -> _Moving:
+    pivot = np.array(gear.pivot)
+    piston, strut = _add_piston(plant, gear, gear.piston, pivot, fitting, p_BA)
+    beam = plant.AddRigidBody(f"{gear.name}_beam", _inertia(gear.beam, pivot))
+    pitch = plant.AddJoint(
+        RevoluteJoint(
+            f"{gear.name}_pitch", piston.body_frame(), beam.body_frame(), _LATERAL
+        )
+    )
+    pitch.set_default_angle(math.radians(gear.pitch_damper.trim_deg))
+    return _Moving({"piston": piston, "beam": beam}, strut, pivot, pitch=pitch)
+
+
+def _add_piston(
+    plant: MultibodyPlant,
+    gear: LandingGear,
+    part: RigidPart,
+    p_BP: Float64,
+    fitting: RigidBody,
+    p_BA: Float64,
+) -> tuple[RigidBody, PrismaticJoint]:
+    piston = plant.AddRigidBody(f"{gear.name}_piston", _inertia(part, p_BP))
+    strut = plant.AddJoint(
+        PrismaticJoint(
+            f"{gear.name}_strut",
+            _offset(
+                plant, f"{gear.name}_cylinder", fitting, p_BP - p_BA, steering(gear)
+            ),
+            piston.body_frame(),
+            _raked_axis(gear),  # turned about itself
+        )
+    )
+    return piston, cast(PrismaticJoint, strut)
+
+
+def _offset(
+    plant: MultibodyPlant,
+    name: str,
+    body: RigidBody,
+    p: Float64,
+    R: RotationMatrix | None = None,
+) -> Frame:
+    X = RigidTransform(R or RotationMatrix(), p)
+    return plant.AddFrame(FixedOffsetFrame(name, body.body_frame(), X))
+
+
+def _inertia(part: RigidPart, origin: Float64) -> SpatialInertia:
+    return SpatialInertia.MakeFromCentralInertia(
+        part.mass, np.array(part.cg) - origin, RotationalInertia(*part.inertia)
+    )
+
+
+def _wheel_inertia(gear: LandingGear) -> SpatialInertia:
+    wheel = gear.wheel
+    across, about = wheel.transverse / wheel.mass, wheel.spin_inertia / wheel.mass
+    return SpatialInertia(wheel.mass, np.zeros(3), UnitInertia(across, about, across))

@@ -1,0 +1,159 @@
+"""From a scenario to a diagram that fits it, and to the state that it starts from."""
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+from pydrake.systems.framework import Context
+
+from drake_landing.case.scenario import (
+    Bump,
+    Measured,
+    Ramp,
+    RunwaySection,
+    Scenario,
+    WaveTrain,
+)
+from drake_landing.case.scenario import Lift as LiftSection
+from drake_landing.gears.bodies import wheel_centres
+from drake_landing.gears.data import LandingGear
+from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.landing.equilibrium import (
+    set_flight_equilibrium,
+    set_static_equilibrium,
+)
+from drake_landing.landing.initial_state import (
+    angular_velocity,
+    attitude,
+    set_initial_state,
+)
+from drake_landing.landing.lift import STANDARD_GRAVITY, Lift, decaying
+from systems.modal_body import ModalBody
+from systems.runway import Runway
+from systems.runway_profile import CosineBump, MeasuredProfile, Profile, Step, Waves
+
+Float64 = npt.NDArray[np.float64]
+
+
+def make_scenario_diagram(
+    body: ModalBody,
+    gears: Sequence[LandingGear],
+    scenario: Scenario,
+    monitor_nodes: Sequence[int] = (),
+    **options,
+) -> LandingDiagram:
+    """A diagram with the runway, gravity, lift and brakes of a scenario.
+
+    It serves all scenarios that have these in common.
+
+    Args:
+        body, gears, monitor_nodes: as in MakeLandingDiagram.
+        scenario: what is to be run.
+        options: further arguments of MakeLandingDiagram.
+
+    Raises:
+        ValueError: also where brakes are to be applied and no gear has any, or nodes
+            that carry the lift are not given.
+    """
+    if scenario.braking and not any(gear.brake for gear in gears):
+        raise ValueError(
+            f"scenario.braking: found {scenario.braking:g}, but no gear has a brake"
+        )
+    ahead = min(p[0] for gear in gears for p in wheel_centres(gear).values())
+    return MakeLandingDiagram(
+        body,
+        gears,
+        runway_of(scenario.runway, origin=(ahead - body.p_BG[0], 0.0)),
+        monitor_nodes=monitor_nodes,
+        gravity=STANDARD_GRAVITY if scenario.gravity else 0.0,
+        lift=_lift(scenario.lift) if isinstance(scenario.lift, LiftSection) else None,
+        brakes=scenario.braking > 0,
+        **options,
+    )
+
+
+def set_scenario_state(
+    landing: LandingDiagram,
+    context: Context,
+    scenario: Scenario,
+    clearance: float = 1e-3,
+) -> None:
+    """The state that the scenario starts from.
+
+    Args:
+        landing: of `make_scenario_diagram`.
+        context: of the diagram.
+        scenario: attitude, velocities, brakes.
+        clearance: of the lowest tyre at touchdown, m.
+
+    Raises:
+        ValueError: no state of rest is found.
+    """
+    s, rad = scenario, math.radians
+    if s.start == "rolling":
+        set_static_equilibrium(landing, context, speed=s.forward_speed)
+    else:
+        turning = (rad(s.roll_rate), rad(s.pitch_rate), rad(s.yaw_rate))
+        set_initial_state(
+            landing,
+            context,
+            v_WG=[-s.forward_speed, s.side_speed, -s.sink_rate],
+            R_WB=attitude(rad(s.roll), rad(s.pitch), rad(s.yaw)),
+            w_B=angular_velocity(*turning),
+            clearance=clearance,
+        )
+        if s.gravity and not any(turning):
+            set_flight_equilibrium(landing, context)
+    for brake in landing.brakes.values():
+        brake.set_factor(brake.GetMyMutableContextFromRoot(context), s.braking)
+
+
+def reference_energy(landing: LandingDiagram, scenario: Scenario) -> float:
+    """Energy of the sinking aircraft, J; for rolling the reference that stands in."""
+    mass = landing.body.mass + sum(gear.mass for gear in landing.gears)
+    return 0.5 * mass * scenario.sink_rate**2
+
+
+def _lift(section: LiftSection) -> Lift:
+    if not section.nodes:
+        raise ValueError("scenario.lift: no nodes, expected those of the wing")
+    factor = section.factor
+    if section.decay_duration is not None:
+        factor = decaying(
+            section.factor,
+            start=section.decay_start,
+            duration=section.decay_duration,
+            remaining=section.remaining,
+        )
+    return Lift(nodes=section.nodes, factor=factor, shares=section.shares)
+
+
+def runway_of(section: RunwaySection, origin: tuple[float, float] = (0, 0)) -> Runway:
+    """The runway of a scenario.
+
+    Args:
+        section: of the case.
+        origin: point of zero distance, W, m.
+
+    Raises:
+        ValueError: a value is out of range.
+    """
+    return Runway(
+        profile=_profile(section.profile) if section.profile else None,
+        surface=section.surface,
+        friction_factor=section.friction_factor,
+        origin=origin,
+    )
+
+
+def _profile(data: Bump | WaveTrain | Ramp | Measured) -> Profile:
+    if isinstance(data, Bump):
+        return CosineBump(height=data.height, length=data.length, start=data.start)
+    if isinstance(data, WaveTrain):
+        return Waves(
+            amplitude=data.amplitude, wavelength=data.wavelength, start=data.start
+        )
+    if isinstance(data, Ramp):
+        return Step(height=data.height, ramp=data.ramp, start=data.start)
+    return MeasuredProfile.from_file(data.file)

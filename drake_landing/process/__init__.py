@@ -1,0 +1,1 @@
+"""The hybrid process: from a case to its results."""

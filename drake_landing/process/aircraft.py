@@ -1,0 +1,138 @@
+"""The aircraft of a case: a user's deck with gears, or a built-in reference."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.case.scenario import Lift, Scenario
+from drake_landing.case.schema import Airframe, Case, Matrices
+from fem.deck.deck import Deck
+from fem.deck.reader import read_deck
+from fem.deck.units import in_si, units_of
+from fem.errors import InputError, nearest
+
+
+def prepare_aircraft(case: Case, out: Path) -> Aircraft:
+    """The aircraft of a case; a built-in one is written to `out/airframe.bdf`.
+
+    Raises:
+        InputError: the deck is not there, or the built-in model is unknown.
+    """
+    airframe = case.airframe
+    read: Callable[[Path], Deck] = partial(
+        _read, ignore=airframe.ignore, units=airframe.units
+    )
+    if airframe.model is None:
+        deck = airframe.deck
+        if airframe.matrices is not None:
+            deck, read = _matrices_deck(airframe, airframe.matrices, out)
+        if deck is None or not deck.is_file():
+            raise InputError(f"airframe.deck: {_not_a_file(deck)}")
+        assert case.gears != "d150"  # the case sees to it
+        return Aircraft(
+            name=deck.stem,
+            topology=airframe.topology or "",
+            deck=deck,
+            units=airframe.units,
+            read=read,
+            gears=tuple(case.gears),
+            monitoring=airframe.monitoring,
+            scenario=_with_lift_nodes(case.scenario),
+            interface=airframe.interface,
+        )
+    from drake_landing.aircraft import write_model
+    from drake_landing.aircraft.reference_axis import reference_nodes
+
+    out.mkdir(parents=True, exist_ok=True)
+    with _as_field("airframe.topology", "topology: "):
+        model = write_model(airframe.model, out / "airframe.bdf", airframe.topology)
+    wing = [reference_nodes()[name].ids for name in ("wing_left", "wing_right")]
+    return Aircraft(
+        name=model.name,
+        topology=model.topology,
+        deck=out / "airframe.bdf",
+        gears=model.gears if case.gears == "d150" else tuple(case.gears),
+        monitoring={**model.monitoring, **airframe.monitoring},
+        scenario=_with_lift_nodes(case.scenario, tuple(sorted({*wing[0], *wing[1]}))),
+        interface=tuple(sorted({*model.interface, *airframe.interface})),
+    )
+
+
+def _read(path: Path, ignore: tuple[str, ...], units: str) -> Deck:
+    """A deck in SI."""
+    return in_si(read_deck(path, ignore=ignore), units_of(units))
+
+
+@contextmanager
+def _as_field(field: str, begin: str) -> Iterator[None]:
+    """Problems are those of a field of the case, instead of what they begin with."""
+    try:
+        yield
+    except InputError as error:
+        raise InputError(
+            f"{field}: {text.removeprefix(begin)}" for text in error.problems
+        ) from None
+
+
+def _not_a_file(deck: Path | None) -> str:
+    """What is there in place of a deck, and what may be meant."""
+    if deck is None or not deck.parent.is_dir():
+        return f"found {deck}, expected a file; the folder does not exist"
+    if deck.is_dir():
+        return f"found {deck}, a folder; expected a file"
+    others = sorted(p.name for p in deck.parent.iterdir() if p.is_file())
+    return f"found {deck}, no such file" + nearest(deck.name, others)
+
+
+def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario:
+    """Those of the built-in model where the case has none."""
+    lift = scenario.lift
+    if not isinstance(lift, Lift) or lift.nodes:
+        return scenario
+    if not wing:
+        raise InputError(
+            "scenario.lift.nodes: found none, expected the grids of the deck that "
+            "carry the lift, round the centre of gravity"
+        )
+    return scenario.model_copy(update={"lift": lift.model_copy(update={"nodes": wing})})
+
+
+def _matrices_deck(
+    airframe: Airframe, matrices: Matrices, out: Path
+) -> tuple[Path, Callable[[Path], Deck]]:
+    """Grids of a user's matrices as `out/airframe.bdf`, and how to read it.
+
+    Raises:
+        InputError: the files do not fit together.
+    """
+    from drake_landing.reduced.as_deck import deck_with_matrices, write_grids_deck
+    from drake_landing.reduced.imported import read_reduced
+
+    roles = ("stiffness", "mass", "damping", "recovery")
+    names = {role: getattr(matrices, role) for role in roles}
+    with _as_field("airframe.matrices", "matrices: "):
+        model = read_reduced(matrices.files, matrices.grids, names)
+    deck = out / "airframe.bdf"
+    write_grids_deck(deck, model)
+    units = units_of(airframe.units)
+    return deck, lambda path: in_si(deck_with_matrices(path, model), units)
+
+
+def write_model_deck(level: str, path: Path, topology: str | None = None) -> str:
+    """Writes a reference aircraft and says what was written.
+
+    Raises:
+        InputError: unknown level or topology, or the folder does not exist.
+    """
+    from drake_landing.aircraft import write_model
+
+    model = write_model(level, path, topology)
+    gears = sum(gear.mass for gear in model.gears)
+    points = ", ".join(f"{name} {grid}" for name, grid in model.monitoring.items())
+    return (
+        f"{path}: {model.name}, {len(model.grid_id)} grids, topology {model.topology}; "
+        f"airframe {model.masses['mass'].sum():,.0f} kg, gears {gears:,.0f} kg\n"
+        f"monitoring points: {points}"
+    )

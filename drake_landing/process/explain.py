@@ -1,0 +1,210 @@
+"""What a case will do, in words, after a dry run of all that can go wrong early.
+
+The deck is read, its matrices are assembled and factorised, the gears are built and put
+just above the runway; modes and landing are left to `run`.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import process_time
+
+import numpy as np
+import scipy.sparse as sp
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.basis import Basis
+from drake_landing.airframe.body import check_nodes, modal_body
+from drake_landing.airframe.deck_units import check_units
+from drake_landing.airframe.free_flight import check_free_flight, check_mass
+from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.schema import Case
+from drake_landing.gears.data import LandingGear
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.results.files import FILES
+from fem.linear_solver import factorize
+from fem.structure import Structure
+from systems.compiled import compiled_before
+from systems.modal_body import ModalBody
+
+_AT_ONCE = 200_000  # freedoms that are factorised without being asked, some seconds
+_HEAD = 12  # characters
+
+# Processor seconds as measured: fixed ones, per second of landing, per mode of that,
+# per step of the transient over a solution.
+_START, _FLIGHT, _MODE, _STEP = 18.0, 1.0, 0.02, 2.5
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cost:
+    """Processor time of a factorisation and of a solution with it, s."""
+
+    factor: float
+    solve: float
+
+
+def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> str:
+    """What matters first: airframe, gears, scenario, run, files.
+
+    Args:
+        case: validated.
+        out: folder that a run would write to; default out/<name>.
+        thorough: factorise however large the airframe is.
+
+    Raises:
+        InputError: everything that is wrong with deck, gears and scenario, with the
+            lines of the case.
+    """
+    with case.places.located(), TemporaryDirectory() as folder:
+        aircraft = prepare_aircraft(case, Path(folder))
+        structure = aircraft.structure()
+        check_nodes(structure, aircraft)
+        check_mass(structure)
+        check_units(structure, aircraft)
+        remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
+        cost = None
+        if thorough or structure.size <= _AT_ONCE:
+            check_free_flight(structure)
+            cost = _cost(structure)
+        _dry_run(case, aircraft, structure)
+    lines = [*_airframe(case, aircraft, structure, cost), *_gears(aircraft)]
+    lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost)]
+    lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
+    notices = (*aircraft.notices, *map(case.places.named, remarks))
+    notices += (*structure.notices, *structure.damping_notices)
+    return "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
+
+
+def _cost(structure: Structure) -> Cost:
+    """Of the matrix of the direct transient."""
+    k, m = structure.stiffness, structure.mass
+    shift = k.diagonal().sum() / m.diagonal().sum()
+    times = [process_time()]
+    with factorize(sp.csr_matrix(k + shift * m), kind="symmetric") as factor:
+        times.append(process_time())
+        factor.solve(np.ones(structure.size))
+        times.append(process_time())
+    return Cost(factor=times[1] - times[0], solve=times[2] - times[1])
+
+
+def _dry_run(case: Case, aircraft: Aircraft, structure: Structure) -> None:
+    """Gears on the rigid airframe, at the start of the scenario."""
+    from drake_landing.landing.run import build_landing, start_state
+
+    if any(_holds(gear) > 6 for gear in aircraft.gears):
+        return  # only a flexible airframe can say how they share the load
+    R_AB = rotation_AB(case.airframe.axes)
+    landing = build_landing(
+        _rigid(structure, aircraft, R_AB),
+        aircraft.gears,
+        aircraft.monitoring,
+        R_AB,
+        aircraft.scenario,
+    )
+    context = landing.diagram.CreateDefaultContext()
+    start_state(landing, context, aircraft.scenario, case.simulation.clearance)
+
+
+def _rigid(structure: Structure, aircraft: Aircraft, R_AB: np.ndarray) -> ModalBody:
+    basis = Basis(
+        frequency_hz=np.zeros(0),
+        shape=np.zeros((structure.size, 0)),
+        rigid=structure.rigid_body,
+        freedoms=structure.size,
+    )
+    return modal_body(structure, basis, aircraft.multibody_nodes, R_AB)
+
+
+def _holds(gear: LandingGear) -> int:
+    """Directions in which the airframe holds a gear rigidly."""
+    further = [h for h in gear.further_attachments if h.stiffness is None]
+    own = 6 if gear.attachment == "rigid" else 3
+    return own + sum(len(hold.directions) for hold in further)
+
+
+def _head(case: Case) -> str:
+    source = f" ({case.places.file})" * bool(case.places.file)
+    return f"{case.name}{': ' * bool(case.title)}{case.title}{source}"
+
+
+def _line(head: str, text: str) -> str:
+    return f"  {head:<{_HEAD}}{text}"
+
+
+def _airframe(
+    case: Case, aircraft: Aircraft, structure: Structure, cost: Cost | None
+) -> Iterator[str]:
+    x, y, z = structure.weight.center
+    name = aircraft.deck.name if case.airframe.deck else aircraft.name
+    yield _line(
+        "airframe",
+        f"{name}: {len(structure.points.grid_id)} grids, {structure.size} free "
+        f"freedoms, {structure.weight.total:,.1f} kg, centre of gravity at "
+        f"{x:z.3f}, {y:z.3f}, {z:z.3f} m",
+    )
+    yield _line(
+        "",
+        f"stiffness factorised in {cost.factor:.1f} s: 6 rigid-body motions, no "
+        "mechanism"
+        if cost
+        else f"not factorised ({structure.size} freedoms): mechanisms are found by "
+        "check --thorough, or by run",
+    )
+    axes = case.airframe.axes
+    yield _line(
+        "",
+        f"flies toward {axes.forward}, up is {axes.up}, units {case.airframe.units}",
+    )
+    yield _line("", f"elastic modes '{case.airframe.select}', {case.airframe.basis}")
+    points = ", ".join(f"{n} ({grid})" for n, grid in aircraft.monitoring.items())
+    yield _line("points", f"{points}: accelerations of both models")
+
+
+def _gears(aircraft: Aircraft) -> Iterator[str]:
+    width = max(len(gear.name) for gear in aircraft.gears)
+    for i, gear in enumerate(aircraft.gears):
+        wheels = len(gear.wheel_names)
+        held = ", ".join(map(str, gear.attachments.values()))
+        yield _line(
+            "" if i else "gears",
+            f"{gear.name:<{width}}  {gear.kind}, {wheels} wheel{'s' * (wheels > 1)}, "
+            f"{gear.mass:,.1f} kg, stroke {gear.shock_absorber.stroke:g} m, at grid "
+            f"{held}",
+        )
+
+
+def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[str]:
+    s = aircraft.scenario
+    mass = structure.weight.total + sum(gear.mass for gear in aircraft.gears)
+    energy = 0.5 * mass * s.sink_rate**2
+    yield _line("scenario", f"{s.story}; {s.lift_story}")
+    yield _line("", f"{mass:,.1f} kg in all, sink energy {energy / 1e3:.1f} kJ")
+
+
+def _run(case: Case, structure: Structure, cost: Cost | None) -> Iterator[str]:
+    steps = case.transient_duration / case.transient.step
+    yield _line(
+        "run",
+        f"landing {case.simulation.duration:g} s ({case.simulation.integrator}), then "
+        f"{steps:.0f} steps of {case.transient.step:g} s of the full model",
+    )
+    if cost:
+        yield _line(
+            "",
+            f"about {_expected(case, structure, cost, steps)} of processor time"
+            + ("" if compiled_before() else "; the first run compiles, half a minute"),
+        )
+
+
+def _expected(case: Case, structure: Structure, cost: Cost, steps: float) -> str:
+    """How long the run takes, one digit: modes unknown, so a guess of their number."""
+    select = case.airframe.select
+    modes = select.value if select.kind in ("count", "relevance", "pulses") else 80
+    modal = 3 * (cost.factor + modes * cost.solve)
+    flight = case.simulation.duration * (_FLIGHT + _MODE * modes)
+    transient = cost.factor + _STEP * steps * cost.solve
+    seconds = _START + modal + flight + transient
+    digits = float(f"{seconds:.1g}")
+    return f"{digits:.0f} s" if digits < 100 else f"{digits / 60:.0f} min"

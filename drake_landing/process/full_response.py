@@ -1,0 +1,208 @@
+"""The chapter of the process on the full model: transient, parts, rival practices."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.body import AirframeModel
+from drake_landing.cache import Arrays, Cache, content_key
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.schema import Case
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.parts.case_places import places_of
+from drake_landing.parts.inventory import inventory
+from drake_landing.parts.slices import (
+    Balanced,
+    balanced,
+    extreme_instants,
+    slice_loads,
+    static_slices,
+)
+from drake_landing.parts.watch import PartsFound, PartsWatch
+from drake_landing.results.stages import Spent, Stages, Timed
+from drake_landing.transient.extremes import OfFirstCase, element_envelopes
+from drake_landing.transient.kept import Response, kept_response, response_key
+from drake_landing.transient.practices import Practices, compare_practices
+from drake_landing.transient.response import transient_response
+from fem.envelope import Envelope
+from fem.structure import Structure
+from fem.transient import TransientRun
+
+Float64 = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, kw_only=True)
+class FullResponse:
+    """What the full model answers.
+
+    Attributes:
+        response: acceleration of the monitoring points, B.
+        envelopes: extremes of all element forces and stresses.
+        watch: what was looked at.
+        parts: what was found there.
+        practices: the three side by side, None: not asked for.
+    """
+
+    response: dict[str, pd.DataFrame]
+    envelopes: tuple[Envelope, ...]
+    watch: PartsWatch
+    parts: PartsFound
+    practices: Practices | None
+
+
+def full_response(
+    case: Case,
+    aircraft: Aircraft,
+    airframe: AirframeModel,
+    loads: Sequence[AttachmentLoads],
+    cache: Cache,
+    stages: Stages,
+) -> FullResponse:
+    """Static cases, transient, parts and practices.
+
+    Args:
+        case, aircraft, airframe: of the run.
+        loads: of the landing, and of one with a rigid airframe if practices are to be
+            compared.
+        cache: where static cases and transients may be found.
+        stages: told and measured.
+    """
+    structure, landing = airframe.structure, loads[0]
+    stages.begin("static cases")
+    gears = {g.name: list(g.attachments.values()) for g in aircraft.gears}
+    instants = extreme_instants(landing, gears) if len(loads) > 1 else {}
+    steady, slices = _static(case, structure, landing, instants, cache)
+
+    stages.begin("maps of stresses and section loads")
+    watch = _watch(case, aircraft, airframe, landing, steady)
+    envelopes = element_envelopes(structure)
+
+    stages.begin("direct transient", f"({len(loads)} load cases)")
+    scheme, points = case.transient.scheme, aircraft.monitoring
+    response = kept_response(
+        cache,
+        response_key(structure, scheme, loads, points, watch, envelopes),
+        points,
+        watch,
+        envelopes,
+        lambda: _respond(case, aircraft, structure, loads, watch, envelopes, stages),
+    )
+
+    stages.begin("tables of the parts")
+    parts = watch.found(loads)
+    practices = None
+    if slices is not None:
+        at_rest = static_slices(
+            structure,
+            landing,
+            instants,
+            slices,
+            watch.stresses,
+            watch.cuts,
+            watch.grids,
+        )
+        practices = compare_practices(parts, at_rest, loads[1], points)
+    return FullResponse(
+        response=response,
+        envelopes=tuple(envelopes),
+        watch=watch,
+        parts=parts,
+        practices=practices,
+    )
+
+
+def _static(
+    case: Case,
+    structure: Structure,
+    loads: AttachmentLoads,
+    instants: dict[int, str],
+    cache: Cache,
+) -> tuple[Float64 | None, Balanced | None]:
+    """Displacements of steady flight where it is known, and the slices."""
+    columns = []
+    if case.airframe.model is not None:
+        from drake_landing.parts.reference_places import steady_load
+
+        columns.append(steady_load(structure))
+    flights = len(columns)
+    if instants:
+        columns.append(slice_loads(structure, loads, instants))
+    if not columns:
+        return None, None
+    load = np.concatenate(columns, axis=1)
+
+    def build() -> Arrays:
+        found = balanced(structure, load)
+        return {"displacement": found.displacement, "motion": found.motion}
+
+    key = content_key(structure.stiffness, structure.mass, load)
+    still = Balanced(**cache.arrays("static", key, build))
+    steady = still.displacement[:, 0] if flights else None
+    return steady, still.take(slice(flights, None)) if instants else None
+
+
+def _watch(
+    case: Case,
+    aircraft: Aircraft,
+    airframe: AirframeModel,
+    loads: AttachmentLoads,
+    steady: Float64 | None,
+) -> PartsWatch:
+    """What is looked at in the transient."""
+    structure = airframe.structure
+    return PartsWatch(
+        structure,
+        places_of(
+            structure,
+            case.parts,
+            rotation_AB(case.airframe.axes),
+            aircraft.monitoring,
+            case.airframe.model,
+        ),
+        inventory(structure, case.parts.allowables),
+        list(aircraft.monitoring.values()),
+        loads.node_id,
+        averaged=case.transient.scheme == "nastran",
+        steady=steady,
+    )
+
+
+def _respond(
+    case: Case,
+    aircraft: Aircraft,
+    structure: Structure,
+    loads: Sequence[AttachmentLoads],
+    watch: PartsWatch,
+    envelopes: Sequence[Envelope],
+    stages: Stages,
+) -> Response:
+    """The transient of all load cases; its parts are booked as stages of their own."""
+    seen = [Timed(observer) for observer in watch.observers]
+    extremes = Timed(OfFirstCase(envelopes))
+
+    def book(run: TransientRun) -> None:
+        factor = Spent(wall=run.factor_seconds, processor=run.factor_processor)
+        stages.split(
+            {
+                "transient: factorisation": factor,
+                "transient: stresses, section loads": sum(
+                    (o.spent for o in seen), Spent()
+                ),
+                "transient: extremes of all results": extremes.spent,
+            }
+        )
+
+    return transient_response(
+        structure,
+        loads[0],
+        aircraft.monitoring,
+        case.transient.scheme,
+        stages.progress,
+        [*seen, extremes],
+        loads[1:],
+        book,
+    )

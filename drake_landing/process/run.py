@@ -1,0 +1,245 @@
+"""The hybrid process, from a case to its report.
+
+    deck -> modes -> landing in Drake -> attachment loads -> direct transient -> compare
+
+`run_case` is the whole story; each chapter is a module of its own.
+"""
+
+from pathlib import Path
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.body import AirframeModel, check_nodes, load_airframe
+from drake_landing.airframe.deck_units import check_units, in_deck_units
+from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.cache import Cache
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.reading import case_text
+from drake_landing.case.schema import Case
+from drake_landing.files import write_csv
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.landing.history import LandingHistory, gear_peaks
+from drake_landing.landing.run import build_landing, fast_mode_notices, fly
+from drake_landing.parts import tables
+from drake_landing.parts.watch import PartsWatch
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.full_response import full_response
+from drake_landing.progress import Reporter
+from drake_landing.results.comparison import RunLabel, comparison_table
+from drake_landing.results.files import write_history_csv, write_results
+from drake_landing.results.result import ProcessResult, on_grid
+from drake_landing.results.stages import Stages
+from drake_landing.transient.deck import (
+    model_selections,
+    transient_deck,
+    write_transient_deck,
+)
+from drake_landing.transient.extremes import worst_elements
+from drake_landing.transient.practices import rigid
+from fem.deck.units import units_of
+from fem.structure import Structure
+from systems.compiled import compiled_before
+from systems.modal_body import ModalBody
+
+
+def run_case(
+    case: Case,
+    out: Path,
+    progress: Reporter | None = None,
+    *,
+    practices: bool = False,
+) -> ProcessResult:
+    """Runs the process and writes all result files into the folder `out`.
+
+    Args:
+        case: validated.
+        out: folder.
+        progress: told the stages.
+        practices: also what rigid gear loads and static slices would have made of it.
+
+    Raises:
+        InputError: case, deck or gears are at fault; every problem is named.
+        LandingError: the landing could not be integrated.
+    """
+    with case.places.located():
+        return _run_case(case, out, Stages(progress), practices)
+
+
+def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> ProcessResult:
+    out.mkdir(parents=True, exist_ok=True)
+
+    cache = Cache.of_user()
+    stages.begin("reading the deck")
+    aircraft = prepare_aircraft(case, out)
+    structure = aircraft.structure()
+    check_nodes(structure, aircraft)
+    check_units(structure, aircraft)
+    remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
+    stages.begin("assembling the matrices")
+    _assemble(structure)
+    stages.begin("eigenmodes")
+    airframe = load_airframe(
+        case.airframe,
+        aircraft,
+        stages.progress,
+        case.scenario,
+        cache,
+        structure,
+    )
+
+    first = "" if compiled_before() else "; the first run compiles, half a minute"
+    stages.begin(
+        "landing", f"(elastic modes in the multibody model: {airframe.body.n}{first})"
+    )
+    history = _fly(case, aircraft, airframe.body, stages.progress)
+    rigid_history = None
+    if practices:
+        stages.begin("landing with a rigid airframe")
+        rigid_history = _fly(case, aircraft, rigid(airframe.body), stages.progress)
+
+    stages.begin("handing over the attachment loads")
+    loads = _on_transient_grid(case, history)
+    write_landing_deck(out / "landing_sol109.bdf", case, aircraft, airframe, loads)
+    all_loads = [loads]
+    if rigid_history is not None:
+        all_loads.append(_on_transient_grid(case, rigid_history))
+
+    full = full_response(case, aircraft, airframe, all_loads, cache, stages)
+
+    stages.begin("comparing")
+    label = RunLabel(
+        run=case.name,
+        aircraft=aircraft.name,
+        topology=aircraft.topology,
+        basis=case.airframe.basis,
+        modes=airframe.body.n,
+        highest_hz=airframe.highest_hz,
+    )
+    comparison = comparison_table(
+        label,
+        loads.time,
+        {name: table.to_numpy() for name, table in full.response.items()},
+        {n: t.to_numpy() for n, t in on_grid(history, loads.time).items()},
+    )
+    result = ProcessResult(
+        case=case,
+        aircraft=aircraft,
+        airframe=airframe,
+        history=history,
+        loads=loads,
+        response=full.response,
+        envelopes=full.envelopes,
+        comparison=comparison,
+        gears=gear_peaks(case.name, history),
+        parts=full.parts,
+        practices=full.practices,
+        notices=(
+            *aircraft.notices,
+            *airframe.notices,
+            *map(case.places.named, remarks),
+            *fast_mode_notices(airframe.body, case.simulation),
+        ),
+        stages=stages,
+    )
+    write_all(result, out, full.watch)
+    return result
+
+
+def _assemble(structure: Structure) -> tuple[int, int]:
+    """Entries of K and M, which are kept."""
+    return structure.stiffness.nnz, structure.mass.nnz
+
+
+def _fly(
+    case: Case, aircraft: Aircraft, body: ModalBody, progress: Reporter
+) -> LandingHistory:
+    """The multibody run of a body."""
+    R_AB, points = rotation_AB(case.airframe.axes), aircraft.monitoring
+    landing = build_landing(
+        body,
+        aircraft.gears,
+        points,
+        R_AB,
+        aircraft.scenario,
+        case.simulation.slow_modes_above,
+    )
+    return fly(landing, aircraft.scenario, case.simulation, points, R_AB, progress)
+
+
+def _on_transient_grid(case: Case, history: LandingHistory) -> AttachmentLoads:
+    return history.attachment_loads().resampled(
+        case.transient.step, case.transient_duration
+    )
+
+
+def write_landing_deck(
+    path: Path,
+    case: Case,
+    aircraft: Aircraft,
+    airframe: AirframeModel,
+    loads: AttachmentLoads,
+) -> None:
+    """The complete SOL 109 deck of this landing, in the units of the user's deck."""
+    lines = transient_deck(
+        aircraft.deck,
+        in_deck_units(loads, units_of(aircraft.units)),
+        airframe.displacement_axes(loads.node_id),
+        output=list(aircraft.monitoring.values()),
+        selections=model_selections(airframe.structure.subcase),
+        title=f"{case.name}: landing, attachment loads of the multibody run",
+    )
+    write_transient_deck(path, lines)
+
+
+def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
+    """results.h5, the CSV tables, pictures, report.html and landing.html."""
+    from drake_landing.parts.gallery import stress_pictures
+    from drake_landing.replay.record import write_replay
+    from drake_landing.report import write_report
+
+    stages = result.stages
+    stages.begin("writing the result files")
+    write_files(result, out)
+    write_replay(out / "landing.html", result)
+    stages.begin("pictures of the stress field")
+    structure, parts = result.airframe.structure, result.parts
+    pictures, unable = stress_pictures(
+        out, structure, watch.stresses, parts, result.case.parts, result.airframe.R_AB
+    )
+    stages.begin("writing the report")
+    write_report(out / "report.html", result, pictures, unable)
+    stages.end()
+    write_csv(out / "stages.csv", stages.table())
+
+
+def write_files(result: ProcessResult, out: Path) -> None:
+    """results.h5 and the CSV tables."""
+    history, parts = result.history, result.parts
+    ultimate = result.case.parts.ultimate_factor
+    write_results(
+        out / "results.h5",
+        case=case_text(result.case),
+        body=result.airframe.body,
+        history=history,
+        loads=result.loads,
+        response=result.response,
+        envelopes=result.envelopes,
+        comparison=result.comparison,
+        gears=result.gears,
+        parts=parts,
+    )
+    write_csv(out / "comparison.csv", result.comparison)
+    write_csv(out / "gears.csv", result.gears)
+    write_csv(out / "worst_elements.csv", worst_elements(result.envelopes, 10))
+    write_csv(out / "worst_stresses.csv", tables.worst_elements(parts.judged, ultimate))
+    write_csv(out / "section_loads.csv", tables.section_envelopes(parts))
+    write_csv(out / "section_roots.csv", tables.root_histories(parts), index=True)
+    write_history_csv(
+        out / "accelerations_equipment.csv", tables.equipment_histories(parts)
+    )
+    if result.practices is not None:
+        write_csv(out / "practices.csv", result.practices.table)
+    write_history_csv(out / "attachment_loads.csv", history.attachment)
+    write_history_csv(out / "tyres.csv", history.tyre)
+    write_history_csv(out / "struts.csv", history.strut)
+    write_history_csv(out / "accelerations_multibody.csv", result.multibody_on_grid)
+    write_history_csv(out / "accelerations_transient.csv", result.response)

@@ -1,0 +1,1 @@
+"""The landing to look at, without a server."""

@@ -1,0 +1,175 @@
+"""Result files: `results.h5` and the CSV tables, each written aside and then renamed.
+
+Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
+
+    /attachment_loads   time, node_id, load (t, k, 6) as given to the full model, basic
+    /multibody/<kind>/<name>   time and value (t, c) with attributes columns, units;
+                        kinds: attachment, tyre, strut, monitoring, motion, energy
+    /multibody/modal_amplitudes (t, n); /multibody/bodies/<name> (t, 7) pose in W
+    /fe/monitoring/<point>   as above, direct transient
+    /parts/sections/<beam>   station, point (A, m), value (t, n, 6): section loads, A
+    /parts/acceleration/<grid>   (t, 3), B; /parts/time
+    /parts/stress       id, equivalent, time, largest, smallest of each element
+    /airframe           frequency_hz, mass, cg, node_id
+    /comparison, /gears   one dataset per column of the CSV tables
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import h5py
+import numpy as np
+import pandas as pd
+
+from drake_landing.files import versions, write_aside, write_csv
+from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.landing.history import UNITS, LandingHistory
+from drake_landing.parts.cuts import COMPONENTS
+from fem.envelope import Envelope
+from systems.modal_body import ModalBody
+
+if TYPE_CHECKING:
+    from drake_landing.parts.watch import PartsFound
+
+# What a run writes.
+FILES = (
+    "report.html",
+    "landing.html",
+    "results.h5",
+    "landing_sol109.bdf",
+    "tables (CSV)",
+    "pictures",
+)
+_UNITS = {
+    **UNITS,
+    **dict.fromkeys(("qw", "qx", "qy", "qz"), "1"),
+    **dict.fromkeys(("px", "py", "pz"), "m"),
+}
+
+
+def write_history_csv(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
+    """Several tables over the same time, side by side: columns `<name>_<column>`."""
+    joined = pd.concat(
+        [t.add_prefix(f"{name}_") for name, t in tables.items()], axis="columns"
+    )
+    write_csv(path, joined.rename_axis("time"), index=True)
+
+
+def write_results(
+    path: Path,
+    *,
+    case: str,
+    body: ModalBody,
+    history: LandingHistory,
+    loads: AttachmentLoads,
+    response: Mapping[str, pd.DataFrame],
+    envelopes: Sequence[Envelope],
+    comparison: pd.DataFrame,
+    gears: pd.DataFrame,
+    parts: "PartsFound",
+) -> None:
+    """Writes `results.h5`.
+
+    Args:
+        path: of the file.
+        case: YAML of the case, defaults written out.
+        body: the modal body of the run.
+        history: the multibody run.
+        loads: on the grid of the transient.
+        response: acceleration of the monitoring points in the direct transient.
+        envelopes: extremes of the element results in the direct transient.
+        comparison, gears: the tables of the same names.
+        parts: what the parts see.
+    """
+
+    def write(to: Path) -> None:
+        with h5py.File(to, "w") as file:
+            file.attrs["case"] = case
+            for name, version in versions().items():
+                file.require_group("versions").attrs[name] = version
+            _write_loads(file.create_group("attachment_loads"), loads)
+            _write_history(file.create_group("multibody"), history)
+            for point, table in response.items():
+                _write_series(file, f"fe/monitoring/{point}", table)
+            for envelope in envelopes:
+                envelope.write(file)
+            _write_parts(file.create_group("parts"), parts)
+            _write_airframe(file.create_group("airframe"), body)
+            _write_table(file.create_group("comparison"), comparison)
+            _write_table(file.create_group("gears"), gears)
+
+    write_aside(path, write)
+
+
+def _write_loads(group: h5py.Group, loads: AttachmentLoads) -> None:
+    group["time"], group["node_id"], group["load"] = (
+        loads.time,
+        loads.node_id,
+        loads.load,
+    )
+    group["load"].attrs["columns"] = ["fx", "fy", "fz", "mx", "my", "mz"]
+    group["load"].attrs["units"] = ["N"] * 3 + ["N m"] * 3
+
+
+def _write_history(group: h5py.Group, history: LandingHistory) -> None:
+    kinds = {
+        "attachment": history.attachment,
+        "tyre": history.tyre,
+        "strut": history.strut,
+        "monitoring": history.monitoring,
+    }
+    for kind, tables in kinds.items():
+        for name, table in tables.items():
+            _write_series(group, f"{kind}/{name}", table)
+    _write_series(group, "motion", history.motion)
+    _write_series(group, "energy", history.energy, unit="J")
+    group["modal_amplitudes"] = history.amplitudes
+    for name, poses in history.bodies.items():
+        group[f"bodies/{name}"] = poses
+        group[f"bodies/{name}"].attrs["columns"] = list(history.motion.columns)
+
+
+def _write_series(
+    group: h5py.Group, name: str, table: pd.DataFrame, unit: str = ""
+) -> None:
+    """Time and values; `unit` is that of columns without one of their own."""
+    at = group.create_group(name)
+    at["time"] = table.index.to_numpy()
+    at["value"] = table.to_numpy()
+    at["value"].attrs["columns"] = [str(c) for c in table.columns]
+    at["value"].attrs["units"] = [_UNITS.get(str(c), unit) for c in table.columns]
+
+
+def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
+    group["time"] = parts.time
+    for name, cuts in parts.cuts.items():
+        at = group.create_group(f"sections/{name}")
+        at["station"], at["point"] = cuts.beam.stations, cuts.point
+        at["value"] = parts.landing.sections[name]
+        at["value"].attrs["columns"] = list(COMPONENTS)
+        at.attrs["outward"] = cuts.beam.outward
+    for grid, values in parts.landing.acceleration.items():
+        group[f"acceleration/{grid}"] = values
+    stress = group.create_group("stress")
+    table = parts.landing.stress
+    stress["id"] = table["id"].to_numpy(np.int64)  # none where there is no element
+    for column in ("equivalent", "time", "largest", "smallest"):
+        stress[column] = table[column].to_numpy(float)
+
+
+def _write_airframe(group: h5py.Group, body: ModalBody) -> None:
+    group["frequency_hz"] = body.frequency
+    group["modal_mass"] = body.modal_mass
+    group["modal_damping"] = body.modal_damping
+    group["mass"], group["cg"] = body.mass, body.p_BG
+    group["inertia"] = body.inertia_G
+    group["node_id"] = body.node_id
+
+
+def _write_table(group: h5py.Group, table: pd.DataFrame) -> None:
+    for column in table.columns:
+        values = table[column].to_numpy()
+        if values.dtype == object:
+            values = np.array([str(v) for v in values], dtype=h5py.string_dtype())
+        group[str(column)] = values

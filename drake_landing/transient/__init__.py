@@ -1,0 +1,1 @@
+"""The full model under the attachment loads: transient, decks, rival practices."""

@@ -1,0 +1,183 @@
+"""The complete SOL 109 deck of a landing: the user's model under the attachment loads.
+
+The bulk data of the model is copied, its INCLUDEs in place, so that the deck is
+self-contained; executive and case control are replaced, save the selections that belong
+to the model (constraints, direct input matrices, parameters). Every load component of
+every attachment node is one TLOAD1 with its DAREA, in the node's displacement frame,
+and TABLED1. Real numbers are written in large fields with ten digits.
+"""
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+
+from drake_landing.landing.handover import AttachmentLoads
+from fem.aside import written_aside
+from fem.deck.case_control import Subcase
+from fem.deck.lexer import read_cards
+from fem.deck.sections import split_sections
+from fem.deck.source import Line, read_source
+from fem.errors import InputError
+
+Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
+
+_FIRST_ID = 900001
+_PER_LINE = 8  # entries of a SET or grid list per line
+
+
+def transient_deck(
+    source: Path,
+    loads: AttachmentLoads,
+    rotation: Float64,
+    *,
+    output: Sequence[int],
+    selections: Sequence[str] = (),
+    title: str = "LANDING",
+) -> Iterable[str]:
+    """Lines of the deck.
+
+    Args:
+        source: the user's deck, with or without executive and case control.
+        loads: on the even grid of the transient, basic axes.
+        rotation: (k, 3, 3) R_BD of the attachment nodes, columns are the displacement
+            axes in the basic frame.
+        output: grids whose displacements and accelerations are printed.
+        selections: case control lines of the model, such as "SPC = 1".
+        title: first line of every page.
+
+    Raises:
+        InputError: the source cannot be read.
+    """
+    sections = split_sections(read_source(source).lines, str(source))
+    bulk = _until_enddata(sections.bulk)
+    time, load = loads.held()
+    components = np.concatenate(
+        [
+            np.einsum("kba,tkb->tka", rotation, load[..., :3]),
+            np.einsum("kba,tkb->tka", rotation, load[..., 3:]),
+        ],
+        axis=-1,
+    )
+    first = _free_ids(bulk, 2 + components[0].size)
+    yield from ("SOL 109", "CEND", f"TITLE = {title[:60].upper()}", *selections)
+    yield from (
+        line.text
+        for line in sections.case_control
+        if line.text.upper().split(",")[0].strip() == "PARAM"
+    )
+    yield from _set_lines(1, sorted(output))
+    yield from ("DISPLACEMENT = 1", "ACCELERATION = 1")
+    yield from (f"DLOAD = {first}", f"TSTEP = {first}", "BEGIN BULK")
+    yield from _step_cards(first, len(loads.time) - 1, loads.step)
+    yield from _load_cards(first, loads.node_id, time, components)
+    yield "$ The model"
+    yield from (line.text for line in bulk)
+    yield "ENDDATA"
+
+
+def write_transient_deck(path: Path, lines: Iterable[str]) -> None:
+    """Writes the file, complete or not at all."""
+    with written_aside(path) as part, part.open("w", encoding="utf-8") as file:
+        file.writelines(line + "\n" for line in lines)
+
+
+def model_selections(subcase: Subcase) -> list[str]:
+    """Case control lines of what belongs to the model rather than to its loading."""
+    names = ("spc", "mpc", "nsm", "suport1", "k2gg", "m2gg", "b2gg")
+    names += ("k2pp", "m2pp", "b2pp")
+    return [
+        f"{name.upper()} = {getattr(subcase, name)}"
+        for name in names
+        if getattr(subcase, name)
+    ]
+
+
+def _until_enddata(lines: Sequence[Line]) -> list[Line]:
+    """The bulk data without ENDDATA.
+
+    Raises:
+        InputError: an INCLUDE is not there.
+    """
+    words = [line.text[:8].upper().strip() for line in lines]
+    end = words.index("ENDDATA") if "ENDDATA" in words else len(words)
+    missing = [line for line in lines[:end] if line.missing]
+    if missing:
+        raise InputError(
+            f"{line.file}:{line.number}: the file of {line.text} is not there"
+            for line in missing
+        )
+    return list(lines[:end])
+
+
+def _free_ids(bulk: Sequence[Line], count: int) -> int:
+    """First of that many ids that no card has in its first field."""
+    used = {
+        int(card.field(1)) for card in read_cards(bulk).cards if card.field(1).isdigit()
+    }
+    first = _FIRST_ID
+    while clash := [i for i in range(first, first + count) if i in used]:
+        first = clash[-1] + 1
+    return first
+
+
+def _step_cards(sid: int, count: int, step: float) -> list[str]:
+    return [_large("TSTEP", sid, count, float(step), 1)[0], "*"]
+
+
+def _load_cards(
+    first: int, node_id: Int64, time: Float64, components: Float64
+) -> Iterable[str]:
+    sid = first + 1
+    summands: list[float | int] = []
+    cards: list[str] = []
+    for k, node in enumerate(node_id.tolist()):
+        for c in range(6):
+            history = components[:, k, c]
+            if not np.any(history):
+                continue
+            summands += [1.0, sid]
+            cards.append(f"TLOAD1  {sid:8d}{sid:8d}{'':16}{sid:8d}")
+            cards.append(f"DAREA   {sid:8d}{node:8d}{c + 1:8d}{'1.':>8}")
+            cards += _table(sid, time, history)
+            sid += 1
+    if not summands:
+        raise InputError(
+            "simulation.duration: no attachment load is different from zero: the gears "
+            "do not touch the runway within it, expected longer"
+        )
+    yield from _large("DLOAD", first, 1.0, *summands)
+    yield from cards
+
+
+def _table(tid: int, time: Float64, values: Float64) -> list[str]:
+    pairs = np.column_stack([time, values]).ravel().tolist()
+    head = [_large("TABLED1", tid)[0], "*"]
+    return head + _large("", *pairs, "ENDT")
+
+
+def _large(name: str, *fields: float | int | str) -> list[str]:
+    """A card in large fields: four of sixteen characters per line."""
+    texts = [_field(value) for value in fields]
+    rows = [texts[i : i + 4] for i in range(0, len(texts), 4)]
+    heads = [f"{name + '*':8}"] + ["*       "] * (len(rows) - 1)
+    lines = [(h + "".join(f"{t:>16}" for t in row)) for h, row in zip(heads, rows)]
+    # Small and large lines come in pairs: a card has an even number of half rows.
+    return lines if len(lines) % 2 == 0 or not name else [*lines, "*"]
+
+
+def _field(value: float | int | str) -> str:
+    if isinstance(value, str):
+        return value
+    if isinstance(value, int):
+        return str(value)
+    # Three-digit exponents do not fit, and mean nothing here.
+    return f"{value if abs(value) > 1e-30 else 0.0:.9e}"
+
+
+def _set_lines(number: int, ids: Sequence[int]) -> list[str]:
+    rows = [ids[i : i + _PER_LINE] for i in range(0, len(ids), _PER_LINE)]
+    texts = [", ".join(map(str, row)) for row in rows]
+    return [f"SET {number} = " + ",\n".join(texts)] if texts else []
