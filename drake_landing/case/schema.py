@@ -1,6 +1,6 @@
 """A landing case: everything that one run of the process depends on, validated.
 
-Every field says its meaning, unit and range; `cases_io` reads it from YAML and reports
+Every field says its meaning, unit and range; `reading` reads it from YAML and reports
 problems with their line, `drake-landing check --schema` prints it as a JSON schema.
 Lengths in m, speeds in m/s, angles in degrees, times in s.
 """
@@ -39,7 +39,7 @@ _SELECTION = (
 )
 
 
-# The name of a known set, or a list; tags are in parentheses, see `cases_io`.
+# The name of a known set, or a list; tags are in parentheses, see `reading`.
 Gears = Annotated[
     Annotated[Literal["d150"], Tag("(name)")]
     | Annotated[tuple[AnyGear, ...], Tag("(list)")],

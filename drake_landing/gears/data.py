@@ -265,7 +265,7 @@ def _is_gear(value: Any) -> bool:
 
 
 # One of the kinds by its field `kind`, telescopic by default; tags are in parentheses,
-# see `cases_io`.
+# see `case.reading`.
 AnyGear = Annotated[
     Annotated[TelescopicGear, Tag("(telescopic)")]
     | Annotated[LeveredGear, Tag("(levered)")]

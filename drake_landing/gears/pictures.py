@@ -1,6 +1,6 @@
 """What a landing gear looks like: rods and wheels, fixed to its bodies.
 
-Body frames as `gear_bodies` makes them: parallel to A in the extended gear, turned
+Body frames as `gears.bodies` makes them: parallel to A in the extended gear, turned
 where it is steered; the origin of the fitting at the attachment node, that of piston,
 arm or beam at the axle or pivot.
 """

@@ -1,7 +1,7 @@
 """One run of a scenario, and what its gears saw: for notebooks, tests and tables.
 
-`landing` does the same for a case, and writes everything down; here is the short way
-from a body, gears and a scenario to figures.
+`landing.run` does the same for a case, and writes everything down; here is the short
+way from a body, gears and a scenario to figures.
 """
 
 import time as clock

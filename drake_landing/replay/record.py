@@ -3,7 +3,7 @@
 The aircraft stays in view and the runway's marks move past. The airframe is a sequence
 of pictures, of which one is visible at a time, because a recording can move and show
 things but not bend them. Gears follow the attachment nodes. What is drawn is in
-`replay_scene`; here is how it moves.
+`scene`; here is how it moves.
 """
 
 import logging

@@ -21,7 +21,8 @@ from systems.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
 
-_ROOMS = ("case", "gears", "landing")  # whose program a run depends on
+# Rooms whose program a run depends on.
+_ROOMS = ("drake_landing.case", "drake_landing.gears", "drake_landing.landing")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,12 +58,7 @@ class LandingTask:
         gears = [gear.model_dump_json() for gear in self.aircraft.gears]
         case = self.case
         return content_key(
-            source_key(
-                "systems",
-                "drake_landing.case",
-                "drake_landing.gears",
-                "drake_landing.landing",
-            ),
+            source_key("systems", *_ROOMS),
             dict(vars(self.body)),
             gears,
             dict(self.aircraft.monitoring),
