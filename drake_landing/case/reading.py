@@ -6,6 +6,7 @@ A problem reads `landing.yaml:12: scenario.sink_rte: unknown key; did you mean
 
 import json
 import re
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, get_args
 
@@ -60,7 +61,7 @@ def parse_case(text: str, *, file: str = "<case>", folder: Path | None = None) -
     try:
         case = Case.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        found = [_problem(places, dict(e)) for e in error.errors()]
+        found = [_problem(places, dict(e), data) for e in error.errors()]
         problems += [f"{file}:{line}: {text}" for line, text in sorted(set(found))]
         raise InputError(problems) from None
     if problems:
@@ -123,14 +124,28 @@ def _repeated_keys(node: yaml.Node, path: str = "") -> list[tuple[int, str]]:
     return found
 
 
-def _problem(places: Places, error: dict[str, Any]) -> tuple[int, str]:
-    """Line and text of one pydantic error."""
+def _problem(
+    places: Places, error: dict[str, Any], data: dict[str, Any]
+) -> tuple[int, str]:
+    """Line and text of one pydantic error in a case."""
     models, field, loc = _resolve(error["loc"])
     path = ".".join(map(str, loc))
     text = _explain(error, models, field, loc)
     if not path:  # of the whole case: the text itself names the field
         return places.line(text.partition(":")[0]), text
-    return places.line(path), f"{path}: {text}"
+    return places.line(path), f"{'.'.join(_by_name(loc, data))}: {text}"
+
+
+def _by_name(loc: Loc, data: Any) -> Iterator[str]:
+    """Steps of a path; what has a name in a list goes by it, `gears.nose.axle`."""
+    for step in loc:
+        try:
+            data = data[step]
+        except (LookupError, TypeError):
+            data = None
+        name = data.get("name") if isinstance(data, dict) else None
+        named = isinstance(step, int) and isinstance(name, str) and name.isidentifier()
+        yield str(name if named else step)
 
 
 def _explain(

@@ -133,9 +133,9 @@ def test_gear_mistakes_carry_their_path() -> None:
     gears = gears_of_tiny_case()
     text = edited("model: con", "deck: a.bdf\n  monitoring: {tip: 4}") + gears
     found = problems(text.replace("stiffness: ", "stifness: ", 1))
-    assert any("gears.0.tyre.stifness" in p and "'stiffness'" in p for p in found)
+    assert any("gears.nose.tyre.stifness" in p and "'stiffness'" in p for p in found)
     found = problems(text.replace("name: nose", "name: nose\n    kind: flying", 1))
-    assert "gears.0: kind: found 'flying', expected telescopic, levered" in found[0]
+    assert "gears.nose: kind: found 'flying', expected telescopic, levered" in found[0]
     found = problems(text.replace("name: main_right", "name: main_left"))
     assert "name main_left is used more than once" in found[0]
 
