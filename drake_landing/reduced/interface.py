@@ -29,9 +29,11 @@ def interface_grids(text: str | None, structure: Structure) -> list[int]:
         dof = structure.analysis_dof
         dof = dof[dof < 6 * len(structure.points.grid_id)]
         if len(dof) == 0:
+            sets = " or ".join(f"'SET {number}'" for number in sorted(case_sets(path)))
             raise InputError(
-                f"{path} has no ASET; give the interface: --interface 'SET 2' or "
-                "--interface '11, 20 THRU 30'"
+                f"{path} has no ASET; give the interface: --interface with "
+                + (f"{sets} of its case control or " if sets else "")
+                + "ids as '11, 20 THRU 30'"
             )
         return structure.points.grid_id[np.unique(dof // 6)].tolist()
     match = re.fullmatch(r"\s*set\s*(\d+)\s*", text, re.IGNORECASE)
