@@ -97,8 +97,11 @@ def _stresses(
     text = (
         "Direct transient, all elements at all steps. Equivalent: von Mises of the "
         "sheet itself, the larger of both fibres; of bars the largest direct stress. "
-        f"Margin of safety: allowable over {factor:g} times the stress, less 1. "
     )
+    if "margin" not in unknown:
+        text += (
+            f"Margin of safety: allowable over {factor:g} times the stress, less 1. "
+        )
     text += (
         "The stresses are increments to steady flight. "
         if total is None
@@ -310,7 +313,8 @@ def _practices(result: "ProcessResult", practices: Practices) -> Section:
         text="Rigid gear loads: the gears land under a rigid airframe, their loads act "
         "on the flexible model. Static slices: the loads of the hybrid process at "
         f"{instants}, balanced by rigid inertia. Hybrid: this report. Errors compare "
-        "magnitudes of peaks; quantities that vanish by symmetry are left out.",
+        "magnitudes of peaks, which are increments to steady flight; quantities that "
+        "vanish by symmetry are left out.",
         blocks=[
             Block(svg=figures.practice_errors(practices)),
             table_block(pd.DataFrame(rows), heads, formats, "Peaks"),
