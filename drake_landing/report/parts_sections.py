@@ -133,7 +133,7 @@ def _section_loads(result: "ProcessResult") -> Section:
         named = np.abs(cuts.named(loads))
         twin = next((n for n, other in shown if _alike(named, other)), None)
         if twin is not None:
-            left_out.append(f"the {name} sees the same as the {twin}, mirrored")
+            left_out.append(f"{name} (the mirror image of {twin})")
             continue
         shown.append((name, named))
         bending = cuts.named(loads)[:, found.looked_at[name], 1]
