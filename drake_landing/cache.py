@@ -201,10 +201,10 @@ def _checksum(file: Path) -> str:
 
 @once
 def source_key(*packages: str) -> str:
-    """Of the program text of packages, without their subpackages."""
+    """Of the program text of packages and all below them."""
     texts = [
         file.read_text(encoding="utf-8")
         for package in packages
-        for file in sorted(Path(str(files(package))).glob("*.py"))
+        for file in sorted(Path(str(files(package))).rglob("*.py"))
     ]
     return content_key(texts)

@@ -106,7 +106,10 @@ def run(
         Path, typer.Argument(help="Nastran deck (SOL 101, 103, 109, 112).")
     ],
     out: Annotated[
-        Path | None, typer.Option(help="Folder for results; default out/fem/<deck>.")
+        Path | None,
+        typer.Option(
+            help="Folder for results; default out/fem/<deck>, decks of one name share it."
+        ),
     ] = None,
     ignore: Annotated[
         str, typer.Option(help="Unsupported cards to go on without: CARD,CARD,...")

@@ -35,7 +35,7 @@ class TransientTask:
         """Of everything that the response depends on."""
         a, loads = self.airframe, self.loads
         return content_key(
-            source_key("fem"),
+            source_key("fem", "drake_landing.transient"),
             a.matrix_key,
             a.case.transient.scheme,
             [loads.time, loads.load, loads.node_id],

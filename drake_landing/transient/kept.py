@@ -29,7 +29,7 @@ def response_key(
     """Of everything that a transient depends on, the program's own text included."""
     b = structure.damping
     return content_key(
-        source_key("fem", "fem.elements", "drake_landing.parts"),
+        source_key("fem", "drake_landing.parts", "drake_landing.transient"),
         [structure.stiffness, structure.mass, b.other],
         [b.stiffness_factor, b.mass_factor, scheme],
         [[load.time, load.node_id, load.load] for load in loads],
