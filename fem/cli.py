@@ -107,9 +107,7 @@ def run(
     ],
     out: Annotated[
         Path | None,
-        typer.Option(
-            help="Folder for results; default out/fem/<deck>, decks of one name share it."
-        ),
+        typer.Option(help="Folder for results; default out/fem/<deck>, by name alone."),
     ] = None,
     ignore: Annotated[
         str, typer.Option(help="Unsupported cards to go on without: CARD,CARD,...")
