@@ -69,9 +69,10 @@ def section_envelopes(
     """
     named = _without_rounding(cuts.named(loads))
     beam = cuts.beam
-    with panels(1, 3, height=2.3) as (figure, grid):
-        for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
-            values = named[..., q]
+    shown = _shown(named)
+    with panels(1, len(shown), height=2.3) as (figure, grid):
+        for axes, q in zip(grid[0], shown):
+            quantity, values = NAMED[q], named[..., q]
             factor, unit = common_scale([values], _UNITS[quantity])
             low, high = factor * values.min(axis=0), factor * values.max(axis=0)
             axes.fill_between(
@@ -83,8 +84,6 @@ def section_envelopes(
             curve(axes, beam.stations, then, INK, label, dashed=True)
             name = f"{beam.name}: {quantity}"
             finish(axes, name, unit, x=f"station {along(cuts)}, m")
-            if not np.any(values):
-                axes.set_ylim(-1.0, 1.0)
         legend(figure, grid[0][0])
         return svg(figure, f"section loads along the {beam.name}")
 
@@ -96,14 +95,14 @@ def root_histories(
     name = cuts.beam.name
     at = found.looked_at[name]
     where = f"{along(cuts)} = {cuts.beam.stations[at]:.2f} m"
-    with panels(1, 3, height=2.2) as (figure, grid):
-        cases = list(zip((HYBRID, RIGID), found.cases))
-        roots = [
-            _without_rounding(cuts.named(case.sections[name][:, at]))
-            for _, case in cases
-        ]
-        for q, (axes, quantity) in enumerate(zip(grid[0], NAMED)):
-            histories = [root[:, q] for root in roots]
+    cases = list(zip((HYBRID, RIGID), found.cases))
+    roots = [
+        _without_rounding(cuts.named(case.sections[name][:, at])) for _, case in cases
+    ]
+    shown = _shown(np.stack(roots))
+    with panels(1, len(shown), height=2.2) as (figure, grid):
+        for axes, q in zip(grid[0], shown):
+            quantity, histories = NAMED[q], [root[:, q] for root in roots]
             factor, unit = common_scale(histories, _UNITS[quantity])
             for (practice, _), values in reversed(list(zip(cases, histories))):
                 label = practice if practices else "direct transient"
@@ -121,8 +120,6 @@ def root_histories(
                 )
             finish(axes, f"{where}: {quantity}", unit)
             axes.set_xlim(found.time[0], found.time[-1])
-            if not np.any(histories[0]):
-                axes.set_ylim(-1.0, 1.0)
         legend(figure, grid[0][0])
         return svg(figure, f"section loads over time, {name}")
 
@@ -137,6 +134,11 @@ def _without_rounding(named: Float64) -> Float64:
     size = np.abs(named).reshape(-1, 3).max(axis=0)
     # Shear in N and moments in N m of one beam: of one order, some metres apart.
     return np.where(size > _ROUNDING * size.max(), named, 0.0)
+
+
+def _shown(named: Float64) -> list[int]:
+    """Loads (..., 3) worth a diagram: those that are not nought by symmetry."""
+    return [q for q in range(3) if np.any(named[..., q])] or [0]
 
 
 def panel(found: PartsFound, at: int, axis: int) -> str:
