@@ -159,6 +159,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--parts", default=",".join(transient_scale.PARTS))
     parser.add_argument("--opensees", metavar="PYTHON", help="interpreter with it")
     options = parser.parse_args(arguments)
+    for part in options.parts.split(","):
+        if part not in transient_scale.PARTS:
+            known = ", ".join(transient_scale.PARTS)
+            parser.error(f"--parts: found {part!r}, expected some of {known}")
     kept: Results = json.loads(KEPT.read_text()) if KEPT.exists() else {}
     wanted = options.only.split(",")
     if "scale" in wanted:
