@@ -120,6 +120,25 @@ def weigh(
     )
 
 
+def rigid_mass_properties(mass: Float64) -> tuple[float, Float64, Float64]:
+    """Mass, centre (3,) and inertia about it (3, 3) from a rigid mass matrix (6, 6).
+
+    The centre is relative to the point that the motions turn about.
+    """
+    total = float(np.trace(mass[:3, :3])) / 3
+    moment = mass[3:, :3] / total
+    centre = 0.5 * np.array(
+        [
+            moment[2, 1] - moment[1, 2],
+            moment[0, 2] - moment[2, 0],
+            moment[1, 0] - moment[0, 1],
+        ]
+    )
+    inertia = mass[3:, 3:] - total * (centre @ centre * np.eye(3))
+    inertia += total * np.outer(centre, centre)
+    return total, centre, 0.5 * (inertia + inertia.T)
+
+
 def _centers(m: Float64, mtr: Float64) -> Float64:
     """(3, 3) row i: centre for mass i; the coordinate along i comes from Mtr_ii."""
     safe = np.where(m != 0.0, m, np.inf)

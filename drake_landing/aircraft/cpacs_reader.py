@@ -17,6 +17,7 @@ import numpy.typing as npt
 from lxml import etree
 
 from drake_landing.aircraft.cpacs_ribs import Plan, read_ribs
+from drake_landing.aircraft.cpacs_xml import number
 from fem.errors import InputError
 
 Float64 = npt.NDArray[np.float64]
@@ -114,7 +115,7 @@ def _aircraft(root: Any, model: Any) -> CpacsAircraft:
         ribs=_ribs(wings[level[0].uid], level[0]) if level else None,
         fuselage=None if fuselage is None else _fuselage(fuselage),
         frames={
-            f.get("uID"): _number(f, "positionX")
+            f.get("uID"): number(f, "positionX")
             for f in model.iterfind(".//frames/frame")
         },
         materials=_materials(root),
@@ -182,14 +183,14 @@ def _positions(body: Any) -> dict[str, Float64]:
     steps: dict[str, tuple[str | None, Float64]] = {}
     for step in body.iterfind("positionings/positioning"):
         sweep, up = (
-            np.deg2rad(_number(step, name)) for name in ("sweepAngle", "dihedralAngle")
+            np.deg2rad(number(step, name)) for name in ("sweepAngle", "dihedralAngle")
         )
         along = np.array(
             [np.sin(sweep), np.cos(sweep) * np.cos(up), np.cos(sweep) * np.sin(up)]
         )
         steps[str(step.findtext("toSectionUID"))] = (
             step.findtext("fromSectionUID"),
-            _number(step, "length") * along,
+            number(step, "length") * along,
         )
     found: dict[str, Float64] = {}
     for section in body.iterfind("sections/section"):
@@ -211,7 +212,7 @@ def _spars(wing: Any) -> dict[str, Float64]:
     for point in segment.iterfind("sparPositions/sparPosition"):
         place = point.find("sparPositionEtaXsi")
         place = point if place is None else place
-        points[point.get("uID")] = (_number(place, "eta"), _number(place, "xsi"))
+        points[point.get("uID")] = (number(place, "eta"), number(place, "xsi"))
     return {
         str(spar.get("uID")): np.array(
             sorted(points[uid.text] for uid in spar.find("sparPositionUIDs"))
@@ -252,7 +253,7 @@ def _materials(root: Any) -> dict[str, dict[str, float]]:
         found[str(material.get("uID"))] = {
             "e": a * (1 + nu) * (1 - 2 * nu) / (1 - nu),
             "nu": nu,
-            "rho": _number(material, "rho"),
+            "rho": number(material, "rho"),
             "tension": float(material.findtext("sig11") or "nan"),
             "shear": float(material.findtext("tau12") or "nan"),
         }
@@ -264,17 +265,6 @@ def _vector(node: Any, path: str, default: float) -> Float64:
     if part is None:
         return np.full(3, default)
     return np.array([float(part.findtext(axis) or default) for axis in "xyz"])
-
-
-def _number(node: Any, name: str) -> float:
-    text = node.findtext(name)
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        raise ValueError(
-            f"line {node.sourceline}: <{etree.QName(node).localname}> has {name} "
-            f"{text!r}, expected a number"
-        ) from None
 
 
 def _list(node: Any, path: str) -> Float64:

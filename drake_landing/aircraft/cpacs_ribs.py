@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from lxml import etree
+
+from drake_landing.aircraft.cpacs_xml import number
 
 Float64 = npt.NDArray[np.float64]
 _SAME = 1e-4  # of the span: one rib, not two
@@ -104,14 +105,14 @@ def _set(positioning: Any, plan: Plan) -> Float64:
 def _spaced(positioning: Any, plan: Plan, curve: Float64, ends: Float64) -> Float64:
     """y of the ribs on their reference: so many, or one every so many metres."""
     if positioning.find("numberOfRibs") is not None:
-        count = round(_number(positioning, "numberOfRibs"))
+        count = round(number(positioning, "numberOfRibs"))
         if count < 1:
             raise ValueError(
                 f"line {positioning.sourceline}: numberOfRibs {count}, expected 1 or "
                 "more"
             )
         return np.linspace(ends[0], ends[1] if count > 1 else ends[0], count)
-    spacing = _number(positioning, "spacing")
+    spacing = number(positioning, "spacing")
     if not spacing > 0.0:
         raise ValueError(
             f"line {positioning.sourceline}: spacing {spacing:g}, expected metres "
@@ -130,7 +131,7 @@ def _angle(positioning: Any, plan: Plan, y: Float64) -> Float64:
     turn, name = 90.0, "leadingEdge"
     if rotation is not None:
         name = _plain(rotation.findtext("ribRotationReference")) or name
-        turn = _number(rotation, "z")
+        turn = number(rotation, "z")
     direction = {"globalY": 0.0, "globalX": -90.0}
     if name in direction:
         base = np.full(len(y), direction[name])
@@ -169,19 +170,8 @@ def _at_front_spar(plan: Plan, curve: Float64, y: Float64, angle: Float64) -> Fl
 def _eta(positioning: Any, plain: str, point: str) -> float:
     """A place on the reference, as CPACS 2 and as CPACS 3 write it."""
     node = positioning.find(point)
-    return _number(positioning, plain) if node is None else _number(node, "eta")
+    return number(positioning, plain) if node is None else number(node, "eta")
 
 
 def _plain(text: str | None) -> str:
     return (text or "").strip()
-
-
-def _number(node: Any, name: str) -> float:
-    text = node.findtext(name)
-    try:
-        return float(text)
-    except (TypeError, ValueError):
-        raise ValueError(
-            f"line {node.sourceline}: <{etree.QName(node).localname}> has {name} "
-            f"{text!r}, expected a number"
-        ) from None

@@ -25,6 +25,7 @@ from drake_landing.progress import Reporter, Silent
 from fem.errors import InputError
 from fem.points import Points
 from fem.structure import Structure
+from fem.weight import rigid_mass_properties
 from systems.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
@@ -193,19 +194,8 @@ def mass_properties(structure: Structure) -> tuple[float, Float64, Float64]:
     They are those of the mass matrix of the free set, hence of the direct transient.
     """
     rigid = structure.rigid_body
-    matrix = rigid.T @ (structure.mass @ rigid)
-    mass = float(np.trace(matrix[:3, :3])) / 3
-    moment = matrix[3:, :3] / mass
-    offset = 0.5 * np.array(
-        [
-            moment[2, 1] - moment[1, 2],
-            moment[0, 2] - moment[2, 0],
-            moment[1, 0] - moment[0, 1],
-        ]
-    )
-    inertia = matrix[3:, 3:] - mass * (offset @ offset * np.eye(3))
-    inertia += mass * np.outer(offset, offset)
-    return mass, structure.weight.center + offset, 0.5 * (inertia + inertia.T)
+    mass, offset, inertia = rigid_mass_properties(rigid.T @ (structure.mass @ rigid))
+    return mass, structure.weight.center + offset, inertia
 
 
 def modal_damping(structure: Structure, basis: Basis) -> Float64:

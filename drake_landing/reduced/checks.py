@@ -15,11 +15,12 @@ import scipy.optimize
 import scipy.sparse as sp
 
 from drake_landing.reduced.make import Reduced
-from drake_landing.reduced.model import ReducedModel, mass_properties
+from drake_landing.reduced.model import ReducedModel
 from drake_landing.show.mesh import drawn_mesh
 from drake_landing.show.modes import motions
 from fem.modes import Modes, normal_modes
 from fem.structure import Structure
+from fem.weight import rigid_mass_properties
 
 Float64 = npt.NDArray[np.float64]
 
@@ -106,9 +107,9 @@ def reduced_modes(model: ReducedModel, highest_hz: float) -> Modes:
 def _mass_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
     centre = structure.weight.center
     full = structure.rigid_body
-    whole = mass_properties(full.T @ (structure.mass @ full))
+    whole = rigid_mass_properties(full.T @ (structure.mass @ full))
     own = model.rigid_body(centre)
-    small = mass_properties(own.T @ model.mass @ own)
+    small = rigid_mass_properties(own.T @ model.mass @ own)
     rows = [("mass", whole[0], small[0])]
     for k, axis in enumerate("xyz"):
         at = centre[k]
