@@ -21,8 +21,8 @@ from drake_landing.aircraft import AircraftModel, build
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.masses import gear_mass_centre
 from fem.deck.reader import read_deck
-from fem.quality import quality_table
-from fem.structure import Structure
+from fem.elements.quality import quality_table
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 LEVELS = ("pre", "full")

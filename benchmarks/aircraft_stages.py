@@ -24,10 +24,10 @@ from benchmarks.machine import description, load, peak_memory
 from benchmarks.page import DOCS, markdown, put
 from drake_landing.aircraft import build, interface_nodes, write_model
 from drake_landing.reduced.make import reduce_structure
+from fem.algebra.linear_solver import factorize
+from fem.algebra.modes import normal_modes
 from fem.deck.reader import read_deck
-from fem.linear_solver import factorize
-from fem.modes import normal_modes
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 INTERIOR = 150.0  # Hz
 HIGHEST = 50.0  # Hz

@@ -9,7 +9,7 @@ from drake_landing.airframe.body import load_airframe
 from drake_landing.case.reading import parse_case
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
 from drake_landing.process.aircraft import prepare_aircraft
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 SINK_RATE = 1.8288  # m/s
 

@@ -24,13 +24,13 @@ from typing import Any
 import numpy as np
 
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
-from systems.attachment import Attachment, RigidAttachment
-from systems.energy_budget import EnergyBudget
-from systems.flexible_airframe import FlexibleAirframe
-from systems.gear_forces import GearForces
-from systems.shock_absorber import ShockAbsorber
-from systems.tire import Tire
-from systems.wheel_kinematics import WheelKinematics
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.attachment.attachment import Attachment, RigidAttachment
+from systems.gear.energy_budget import EnergyBudget
+from systems.gear.gear_forces import GearForces
+from systems.gear.wheel_kinematics import WheelKinematics
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.tire.tire import Tire
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body

@@ -18,7 +18,7 @@ import numpy as np
 
 from benchmarks.conceptual_landing import SINK_RATE, make_landing, modal_body
 from drake_landing.landing.diagram import LandingDiagram
-from systems.slow_modes import fastest_rate
+from systems.airframe.slow_modes import fastest_rate
 from tests.drake_landing.landing_run import Run, land
 
 CHOICES = (

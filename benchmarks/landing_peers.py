@@ -6,8 +6,8 @@ Both land the same aircraft (`lattice_aircraft`), in turns in one run. Exudyn co
 `pip install '.[peers]'`; with `--exudyn-python` it may live in an environment of its
 own. Times are processor seconds of the simulation alone. Errors are those of the worst
 peak (forces of oleos and tyres) against the finest run of the same code; "modes up to"
-is the bound of `systems.slow_modes`, "all" leaves the modes as they are. The last
-column, the peak acceleration of a wing tip in m/s², is not part of the error: it
+is the bound of `systems.airframe.slow_modes`, "all" leaves the modes as they are. The
+last column, the peak acceleration of a wing tip in m/s², is not part of the error: it
 follows the jump of all forces at the start, and with it the highest modes.
 
 The ratio is taken at equal accuracy: for each run of this project, against the fastest
@@ -30,7 +30,7 @@ import numpy as np
 
 from benchmarks import lattice_aircraft as aircraft
 from benchmarks.lattice_landing import land, make_landing, modal_body
-from systems.slow_modes import with_slow_modes
+from systems.airframe.slow_modes import with_slow_modes
 
 # Peaks of an independent model of the same case in Exudyn 1.13.6, N.
 PUBLISHED = {

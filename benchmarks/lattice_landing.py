@@ -36,15 +36,15 @@ from benchmarks.lattice_aircraft import (
     reduced,
 )
 from benchmarks.point_wheels import PointWheel, PointWheels
-from systems.flexible_airframe import FlexibleAirframe
-from systems.gas_spring import GasSpring
-from systems.modal_body import ModalBody
-from systems.shock_absorber import ShockAbsorber
-from systems.slip import SineSlip
-from systems.strut_law import ShockAbsorberParameters
-from systems.table import Table
-from systems.tire import Tire
-from systems.tire_law import TireParameters
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.airframe.modal_body import ModalBody
+from systems.shock_absorber.gas_spring import GasSpring
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.slip import SineSlip
+from systems.tire.tire import Tire
+from systems.tire.tire_law import TireParameters
+from systems.tools.table import Table
 
 TIP_NODE = 9
 _RADIUS = 0.5  # m, any: the case has a point

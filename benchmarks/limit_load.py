@@ -18,7 +18,7 @@ from drake_landing.aircraft.limit_load import (
     limit_load,
 )
 from fem.deck.reader import read_deck
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 _SEMI_SPAN = 16.963  # m
 

@@ -34,7 +34,7 @@ from drake_landing.landing.start import make_scenario_diagram, set_scenario_stat
 from drake_landing.landing.trial import Trial, try_scenario
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.practices import rigid
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "presets.md"
 

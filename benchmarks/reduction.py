@@ -29,7 +29,7 @@ from drake_landing.reduced.global_modes import named_modes
 from drake_landing.reduced.make import reduce_structure
 from drake_landing.reduced.report import PAIRED
 from fem.deck.reader import read_deck
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 HIGHEST = 50.0  # Hz, of the modes that are compared
 INTERIOR = 150.0  # Hz, of Craig-Bampton's fixed-interface modes

@@ -27,8 +27,8 @@ import numpy as np
 import fem
 from benchmarks.machine import load, peak_memory, read_bandwidth
 from benchmarks.stiffened_aircraft import Size, deck
-from fem.envelope import Envelope
-from fem.transient import TransientRun
+from fem.recovery.envelope import Envelope
+from fem.response.direct import TransientRun
 
 STEP = 1e-3
 Figures = dict[str, float]

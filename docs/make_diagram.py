@@ -10,7 +10,7 @@ import numpy as np
 from drake_landing.aircraft.generator import build
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.wiring import wiring_svg
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 
 def main() -> None:

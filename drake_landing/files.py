@@ -2,12 +2,11 @@
 
 import importlib.metadata
 import platform
-from collections.abc import Callable
 from pathlib import Path
 
 import pandas as pd
 
-from fem.aside import written_aside
+from fem.files.aside import write_aside
 
 _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
 
@@ -16,15 +15,6 @@ def versions() -> dict[str, str]:
     """Of the program and what its figures depend on."""
     found = {name: importlib.metadata.version(name) for name in _PACKAGES}
     return {**found, "python": platform.python_version()}
-
-
-def write_aside(path: Path, write: Callable[[Path], object]) -> None:
-    """Calls `write` with a temporary name in the same folder, then renames.
-
-    A reader never meets a half-written file, and an interrupted run leaves the old one.
-    """
-    with written_aside(path) as part:
-        write(part)
 
 
 def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:

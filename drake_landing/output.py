@@ -5,8 +5,8 @@ A folder says in the file `.made-by` whose results it holds.
 
 from pathlib import Path
 
-from fem.aside import written_aside
 from fem.errors import InputError
+from fem.files.aside import written_aside
 
 _MARK = ".made-by"
 

@@ -15,62 +15,62 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from fem.damping import Damping as Damping
+    from fem.algebra.damping import Damping as Damping
+    from fem.algebra.linear_solver import SingularMatrixError as SingularMatrixError
+    from fem.algebra.linear_solver import factorize as factorize
+    from fem.algebra.modes import Modes as Modes
+    from fem.algebra.modes import ModesError as ModesError
+    from fem.algebra.modes import normal_modes as normal_modes
+    from fem.algebra.reduction import Reduction as Reduction
+    from fem.algebra.reduction import reduce_craig_bampton as reduce_craig_bampton
+    from fem.algebra.reduction import reduce_guyan as reduce_guyan
+    from fem.algebra.statics import inertia_relief as inertia_relief
+    from fem.algebra.statics import solve_static as solve_static
     from fem.deck.deck import Deck as Deck
     from fem.deck.reader import read_deck as read_deck
-    from fem.envelope import Envelope as Envelope
     from fem.errors import InputError as InputError
-    from fem.linear_solver import SingularMatrixError as SingularMatrixError
-    from fem.linear_solver import factorize as factorize
-    from fem.modal_transient import modal_transient as modal_transient
-    from fem.modal_transient import residual_vectors as residual_vectors
-    from fem.modes import Modes as Modes
-    from fem.modes import ModesError as ModesError
-    from fem.modes import normal_modes as normal_modes
-    from fem.observation import Observation as Observation
-    from fem.recovery import element_tables as element_tables
-    from fem.reduction import Reduction as Reduction
-    from fem.reduction import reduce_craig_bampton as reduce_craig_bampton
-    from fem.reduction import reduce_guyan as reduce_guyan
+    from fem.model.structure import Structure as Structure
+    from fem.recovery.elements import element_tables as element_tables
+    from fem.recovery.envelope import Envelope as Envelope
+    from fem.response.direct import GeneralizedAlpha as GeneralizedAlpha
+    from fem.response.direct import NastranScheme as NastranScheme
+    from fem.response.direct import TransientLoad as TransientLoad
+    from fem.response.direct import direct_transient as direct_transient
+    from fem.response.direct import sampled_load as sampled_load
+    from fem.response.modal import modal_transient as modal_transient
+    from fem.response.modal import residual_vectors as residual_vectors
+    from fem.response.observation import Observation as Observation
     from fem.solution import Options as Options
     from fem.solution import run_deck as run_deck
-    from fem.statics import inertia_relief as inertia_relief
-    from fem.statics import solve_static as solve_static
-    from fem.structure import Structure as Structure
-    from fem.transient import GeneralizedAlpha as GeneralizedAlpha
-    from fem.transient import NastranScheme as NastranScheme
-    from fem.transient import TransientLoad as TransientLoad
-    from fem.transient import direct_transient as direct_transient
-    from fem.transient import sampled_load as sampled_load
 
 _HOME = {
-    "Damping": "damping",
+    "Damping": "algebra.damping",
     "Deck": "deck.deck",
-    "Envelope": "envelope",
-    "GeneralizedAlpha": "transient",
+    "Envelope": "recovery.envelope",
+    "GeneralizedAlpha": "response.direct",
     "InputError": "errors",
-    "Modes": "modes",
-    "ModesError": "modes",
-    "NastranScheme": "transient",
-    "Observation": "observation",
+    "Modes": "algebra.modes",
+    "ModesError": "algebra.modes",
+    "NastranScheme": "response.direct",
+    "Observation": "response.observation",
     "Options": "solution",
-    "Reduction": "reduction",
-    "SingularMatrixError": "linear_solver",
-    "Structure": "structure",
-    "TransientLoad": "transient",
-    "direct_transient": "transient",
-    "element_tables": "recovery",
-    "factorize": "linear_solver",
-    "inertia_relief": "statics",
-    "modal_transient": "modal_transient",
-    "normal_modes": "modes",
+    "Reduction": "algebra.reduction",
+    "SingularMatrixError": "algebra.linear_solver",
+    "Structure": "model.structure",
+    "TransientLoad": "response.direct",
+    "direct_transient": "response.direct",
+    "element_tables": "recovery.elements",
+    "factorize": "algebra.linear_solver",
+    "inertia_relief": "algebra.statics",
+    "modal_transient": "response.modal",
+    "normal_modes": "algebra.modes",
     "read_deck": "deck.reader",
-    "reduce_craig_bampton": "reduction",
-    "reduce_guyan": "reduction",
-    "residual_vectors": "modal_transient",
+    "reduce_craig_bampton": "algebra.reduction",
+    "reduce_guyan": "algebra.reduction",
+    "residual_vectors": "response.modal",
     "run_deck": "solution",
-    "sampled_load": "transient",
-    "solve_static": "statics",
+    "sampled_load": "response.direct",
+    "solve_static": "algebra.statics",
 }
 
 __all__ = sorted(_HOME)  # pyright: ignore[reportUnsupportedDunderAll]

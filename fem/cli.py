@@ -138,7 +138,7 @@ def run(
 ) -> None:
     """Solve a Nastran deck's own case control and write DIR/<deck>.h5."""
     from fem.deck.reader import read_deck
-    from fem.export import export, wants_op2
+    from fem.files.export import export, wants_op2
     from fem.solution import Options, run_deck
 
     console = RichConsole()

@@ -12,19 +12,11 @@ from fem.deck.case_control import QUANTITIES
 from fem.deck.catalogue import PASSED_OVER
 from fem.deck.params import DEFAULTS
 from fem.deck.reader import SUPPORTED
-from fem.elements import (
-    bar,
-    beam,
-    beam_stations,
-    bush,
-    rod,
-    scalar,
-    shear_panel,
-    shell_recovery,
-    solid,
-    visc,
-)
-from fem.failure import failure_names
+from fem.elements.lines import bar, beam, beam_stations, rod
+from fem.elements.scalars import bush, scalar, visc
+from fem.elements.shells import shear_panel, shell_recovery
+from fem.elements.shells.failure_recovery import failure_names
+from fem.elements.solids import solid
 from fem.solution.options import WRITTEN
 
 BEGIN, END = "<!-- tables: python -m fem.overview -->", "<!-- end of tables -->"

@@ -19,7 +19,7 @@ from benchmarks.verification.row import (
 )
 from benchmarks.verification.runner import run
 from fem.constraints.rbe3 import read_rbe3
-from fem.points import Points
+from fem.model.points import read_points
 from fem.solution import Options
 
 
@@ -306,7 +306,7 @@ def rbe3_matrices(references: Path) -> list[Row]:
         if not matrix.exists():
             continue
         deck = fem.read_deck(stem.with_suffix(".dat"))
-        points = Points.from_deck(deck)
+        points = read_points(deck)
         (equations,) = read_rbe3(deck, points)
         ours = np.zeros((points.size, points.size))
         at = equations.dependent[equations.row], equations.column

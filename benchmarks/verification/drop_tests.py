@@ -5,10 +5,10 @@ import math
 import numpy as np
 
 from benchmarks.verification.row import Row, figure
-from systems.gas_spring import GasSpring
-from systems.strut_law import ShockAbsorberParameters
-from systems.table import Table
-from systems.tire_law import TireParameters, inflated_stiffness
+from systems.shock_absorber.gas_spring import GasSpring
+from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.tire_law import TireParameters, inflated_stiffness
+from systems.tools.table import Table
 from tests.systems.drop_rig import Rig, drop
 
 SOURCE = "third-party model (scipy), drop_test.md"

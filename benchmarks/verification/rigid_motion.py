@@ -7,7 +7,7 @@ import numpy as np
 
 import fem
 from benchmarks.verification.row import Row, figure
-from fem.weight import rigid_modes
+from fem.model.weight import rigid_modes
 
 DECK = """\
 SOL 101

@@ -19,8 +19,8 @@ from drake_landing.aircraft.reference_axis import (
     Reference,
     reference_nodes,
 )
-from fem.aside import written_aside
 from fem.errors import InputError, nearest
+from fem.files.aside import written_aside
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,11 +22,11 @@ from drake_landing.aircraft.reference_axis import (
     NodeGroup,
     reference_nodes,
 )
+from fem.algebra.statics import inertia_relief
 from fem.elements.block import Detail
 from fem.elements.stress_measures import plane_von_mises
-from fem.recovery import element_tables
-from fem.statics import inertia_relief
-from fem.structure import Structure
+from fem.model.structure import Structure
+from fem.recovery.elements import element_tables
 
 Float64 = npt.NDArray[np.float64]
 

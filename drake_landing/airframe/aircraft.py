@@ -8,7 +8,7 @@ from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.gears.data import LandingGear
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 
 @dataclass(frozen=True, kw_only=True)

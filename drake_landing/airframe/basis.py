@@ -16,12 +16,12 @@ import scipy.sparse as sp
 from drake_landing.airframe.free_flight import check_free_flight
 from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.case.schema import Airframe, Selection
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import Modes, ModesError, normal_modes, rigid_energy
+from fem.algebra.reduction import Reduction, reduce_craig_bampton
 from fem.errors import InputError
-from fem.linear_solver import SingularMatrixError
-from fem.modal_transient import residual_vectors
-from fem.modes import Modes, ModesError, normal_modes, rigid_energy
-from fem.reduction import Reduction, reduce_craig_bampton
-from fem.structure import Structure
+from fem.model.structure import Structure
+from fem.response.modal import residual_vectors
 
 Float64 = npt.NDArray[np.float64]
 Rows = npt.NDArray[np.intp]

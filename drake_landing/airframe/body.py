@@ -23,10 +23,10 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.case.schema import Airframe
 from drake_landing.progress import Reporter, Silent
 from fem.errors import InputError
-from fem.points import Points
-from fem.structure import Structure
-from fem.weight import rigid_mass_properties
-from systems.modal_body import ModalBody
+from fem.geometry.points import Points
+from fem.model.structure import Structure
+from fem.model.weight import rigid_mass_properties
+from systems.airframe.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

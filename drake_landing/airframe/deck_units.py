@@ -12,7 +12,7 @@ from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.landing.handover import AttachmentLoads
 from fem.deck.units import SYSTEMS, Units, units_of
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 _SPAN = (0.5, 300.0)  # m, of anything that lands
 _REACH = 10.0  # m, farther from its attachment node no axle lies

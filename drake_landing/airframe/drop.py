@@ -19,10 +19,10 @@ from drake_landing.gears.parameters import (
     shock_absorber_parameters,
     tire_parameters,
 )
-from systems.runway import Runway
-from systems.slip import secant
-from systems.strut_law import StrutLaw
-from systems.tire_law import TireLaw
+from systems.runway.runway import Runway
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.tire.slip import secant
+from systems.tire.tire_law import TireLaw
 
 Float64 = npt.NDArray[np.float64]
 

@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from fem.constraints.autospc import grouped
 from fem.errors import InputError
-from fem.mechanisms import Mechanism
-from fem.structure import Structure
+from fem.model.mechanisms import Mechanism
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

@@ -16,11 +16,11 @@ from drake_landing.gears.data import LandingGear, LeveredGear
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
 from drake_landing.landing.lift import STANDARD_GRAVITY
 from fem.errors import InputError
-from fem.structure import Structure
-from systems.lever_strut import LeverGeometry
-from systems.runway import Runway
-from systems.strut_law import StrutLaw
-from systems.tire_law import TireLaw
+from fem.model.structure import Structure
+from systems.gear.lever_strut import LeverGeometry
+from systems.runway.runway import Runway
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.tire.tire_law import TireLaw
 
 Float64 = npt.NDArray[np.float64]
 

@@ -18,8 +18,8 @@ from drake_landing.airframe.drop import DropPulse, drop_pulse
 from drake_landing.case.schema import Scenario
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.parameters import tire_parameters
-from systems.runway import Runway
-from systems.slip import secant
+from systems.runway.runway import Runway
+from systems.tire.slip import secant
 
 Float64 = npt.NDArray[np.float64]
 

@@ -15,7 +15,7 @@ from drake_landing.cache import Cache
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.scenario import Scenario
 from drake_landing.case.schema import Airframe, Selection
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

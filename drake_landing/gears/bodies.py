@@ -40,8 +40,8 @@ from drake_landing.gears.data import (
     RigidPart,
     TelescopicGear,
 )
-from systems.lever_strut import LeverStrut
-from systems.rotations import exp
+from systems.gear.lever_strut import LeverStrut
+from systems.tools.rotations import exp
 
 Float64 = npt.NDArray[np.float64]
 

@@ -7,8 +7,8 @@ import numpy.typing as npt
 
 from drake_landing.gears.bodies import GearBodies
 from drake_landing.gears.data import LandingGear
-from systems.attachment_points import AttachmentPoint
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
+from systems.attachment.attachment_points import AttachmentPoint
 
 Float64 = npt.NDArray[np.float64]
 

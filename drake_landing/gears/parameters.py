@@ -3,17 +3,17 @@
 import math
 
 from drake_landing.gears.parts import Brake, PitchDamper, ShockAbsorber, Tyre
-from systems.bogie_pitch import BogiePitchParameters
-from systems.brake import AntiSkid, BrakeParameters
-from systems.gas_spring import GasSpring, SecondChamber
-from systems.slip import SineSlip, TabulatedSlip
-from systems.strut_law import ShockAbsorberParameters
-from systems.table import Table
-from systems.tire_law import TireParameters
+from systems.gear.bogie_pitch import BogiePitchParameters
+from systems.gear.brake import AntiSkid, BrakeParameters
+from systems.shock_absorber.gas_spring import GasSpring, SecondChamber
+from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.slip import SineSlip, TabulatedSlip
+from systems.tire.tire_law import TireParameters
+from systems.tools.table import Table
 
 
 def shock_absorber_parameters(data: ShockAbsorber) -> ShockAbsorberParameters:
-    """Parameters of `systems.shock_absorber`; ValueError where they do not fit."""
+    """Parameters of the system `ShockAbsorber`; ValueError where they do not fit."""
     second = data.second_chamber
     gas = GasSpring(
         precharge=data.precharge_force,
@@ -45,7 +45,7 @@ def shock_absorber_parameters(data: ShockAbsorber) -> ShockAbsorberParameters:
 
 
 def tire_parameters(data: Tyre) -> TireParameters:
-    """Parameters of `systems.tire`; ValueError where they do not fit."""
+    """Parameters of `systems.tire.tire`; ValueError where they do not fit."""
     table = _table(data.friction_table)
     slip = (
         TabulatedSlip(table=table)
@@ -72,7 +72,7 @@ def tire_parameters(data: Tyre) -> TireParameters:
 
 
 def brake_parameters(data: Brake) -> BrakeParameters:
-    """Parameters of `systems.brake`; ValueError where they do not fit."""
+    """Parameters of `systems.gear.brake`; ValueError where they do not fit."""
     torque = _table(data.torque_table) if data.torque is None else data.torque
     assert torque is not None  # the data's own validation
     skid = data.anti_skid
@@ -88,7 +88,7 @@ def brake_parameters(data: Brake) -> BrakeParameters:
 
 
 def bogie_pitch_parameters(data: PitchDamper) -> BogiePitchParameters:
-    """Parameters of `systems.bogie_pitch`; ValueError where they do not fit."""
+    """Parameters of `systems.gear.bogie_pitch`; ValueError where they do not fit."""
     return BogiePitchParameters(
         trim=math.radians(data.trim_deg),
         stiffness=data.stiffness,

@@ -19,15 +19,15 @@ from drake_landing.gears.parameters import (
     shock_absorber_parameters,
     tire_parameters,
 )
-from systems.bogie_pitch import BogiePitch
-from systems.brake import Brake
-from systems.gear_forces import GearForces
-from systems.lever_strut import LeverStrut
-from systems.runway import Runway
-from systems.shock_absorber import ShockAbsorber
-from systems.side_load import SideLoad
-from systems.tire import Tire
-from systems.wheel_kinematics import WheelKinematics
+from systems.gear.bogie_pitch import BogiePitch
+from systems.gear.brake import Brake
+from systems.gear.gear_forces import GearForces
+from systems.gear.lever_strut import LeverStrut
+from systems.gear.wheel_kinematics import WheelKinematics
+from systems.runway.runway import Runway
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.shock_absorber.side_load import SideLoad
+from systems.tire.tire import Tire
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -171,7 +171,7 @@ def _add_brakes(
 def _connect_gear(
     builder: DiagramBuilder, gear: LandingGear, systems: GearSystems
 ) -> None:
-    kinematics, forces = systems.wheel_kinematics, systems.gear_forces
+    kinematics, forces = systems.gear.wheel_kinematics, systems.gear.gear_forces
     name, absorber = gear.name, systems.shock_absorbers[gear.name]
     for wheel in gear.wheel_names:
         tire = systems.tires[wheel]

@@ -27,15 +27,15 @@ from drake_landing.gears.holds import (
 )
 from drake_landing.gears.systems import AddGearSystems, GearSystems
 from drake_landing.landing.lift import AddLift, Lift
-from systems.attachment import Attachment, RigidAttachment
-from systems.bushing_attachment import BushingAttachment
-from systems.distributed_load import DistributedLoad
-from systems.energy_budget import AddEnergyBudget, EnergyBudget
-from systems.flexible_airframe import FlexibleAirframe
-from systems.gear_forces import GearForces
-from systems.modal_body import ModalBody
-from systems.runway import Runway
-from systems.wheel_kinematics import WheelKinematics
+from systems.airframe.distributed_load import DistributedLoad
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.airframe.modal_body import ModalBody
+from systems.attachment.attachment import Attachment, RigidAttachment
+from systems.attachment.bushing_attachment import BushingAttachment
+from systems.gear.energy_budget import AddEnergyBudget, EnergyBudget
+from systems.gear.gear_forces import GearForces
+from systems.gear.wheel_kinematics import WheelKinematics
+from systems.runway.runway import Runway
 
 _LOGGED = {
     "airframe": ("pose", "modal_amplitudes", "monitor_acceleration", "energy"),

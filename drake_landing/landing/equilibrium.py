@@ -12,7 +12,7 @@ from pydrake.systems.framework import Context
 
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.initial_state import attitude, tyre_clearances
-from systems.rotations import quaternion_from_rotation
+from systems.tools.rotations import quaternion_from_rotation
 
 Float64 = npt.NDArray[np.float64]
 

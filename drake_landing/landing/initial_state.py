@@ -5,7 +5,7 @@ import numpy.typing as npt
 from pydrake.systems.framework import Context
 
 from drake_landing.landing.diagram import LandingDiagram
-from systems.rotations import exp, quaternion_from_rotation
+from systems.tools.rotations import exp, quaternion_from_rotation
 
 Float64 = npt.NDArray[np.float64]
 

@@ -12,11 +12,11 @@ from pydrake.systems.framework import DiagramBuilder
 
 from drake_landing.gears.bodies import mass_points
 from drake_landing.gears.data import LandingGear
-from systems.checks import require
-from systems.distributed_load import DistributedLoad, trimmed_shares
-from systems.flexible_airframe import FlexibleAirframe
-from systems.modal_body import ModalBody
-from systems.table import Table
+from systems.airframe.distributed_load import DistributedLoad, trimmed_shares
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.airframe.modal_body import ModalBody
+from systems.tools.checks import require
+from systems.tools.table import Table
 
 Float64 = npt.NDArray[np.float64]
 

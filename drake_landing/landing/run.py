@@ -27,9 +27,9 @@ from drake_landing.landing.start import (
 from drake_landing.landing.threads import single_threaded_blas
 from drake_landing.progress import Reporter, Silent
 from fem.errors import InputError
-from systems.modal_body import ModalBody
-from systems.rotations import rotation_from_quaternion
-from systems.slow_modes import fastest_rate, with_slow_modes
+from systems.airframe.modal_body import ModalBody
+from systems.airframe.slow_modes import fastest_rate, with_slow_modes
+from systems.tools.rotations import rotation_from_quaternion
 
 Float64 = npt.NDArray[np.float64]
 
@@ -62,7 +62,7 @@ def build_landing(
         monitoring: point -> grid id.
         R_AB: (3, 3).
         scenario: its runway, gravity, lift and brakes are part of the diagram.
-        slow_modes_above: Hz; see `systems.slow_modes`.
+        slow_modes_above: Hz; see `systems.airframe.slow_modes`.
 
     Raises:
         InputError: the gears cannot be built or held as they are described.

@@ -29,9 +29,15 @@ from drake_landing.landing.initial_state import (
     set_initial_state,
 )
 from drake_landing.landing.lift import STANDARD_GRAVITY, Lift, decaying
-from systems.modal_body import ModalBody
-from systems.runway import Runway
-from systems.runway_profile import CosineBump, MeasuredProfile, Profile, Step, Waves
+from systems.airframe.modal_body import ModalBody
+from systems.runway.runway import Runway
+from systems.runway.runway_profile import (
+    CosineBump,
+    MeasuredProfile,
+    Profile,
+    Step,
+    Waves,
+)
 
 Float64 = npt.NDArray[np.float64]
 

@@ -18,7 +18,7 @@ from drake_landing.gears.data import LandingGear
 from drake_landing.landing.audit import Audit, Signals, audit, gear_loads
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,7 +10,7 @@ from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam
 from drake_landing.parts.places import Panel, Places
 from drake_landing.parts.reference_places import reference_places
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 

@@ -22,7 +22,7 @@ import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
 
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

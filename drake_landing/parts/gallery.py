@@ -10,7 +10,7 @@ from drake_landing.parts.pictures import can_draw, draw_field, stress_field
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.tables import component_table
 from drake_landing.parts.watch import PartsFound
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 

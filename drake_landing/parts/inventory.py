@@ -9,7 +9,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.show.comments import component_names, read_names
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

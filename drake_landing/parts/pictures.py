@@ -18,7 +18,7 @@ import pandas as pd
 
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.stress_watch import Snapshot
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 if TYPE_CHECKING:
     import pyvista

@@ -8,7 +8,7 @@ from drake_landing.aircraft.limit_load import LOAD_FACTOR, applied_loads
 from drake_landing.aircraft.reference_axis import reference_nodes
 from drake_landing.parts.cuts import ANY, Beam
 from drake_landing.parts.places import Panel, Places
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 

@@ -14,8 +14,8 @@ import numpy.typing as npt
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import BeamCuts
 from drake_landing.parts.stress import Stresses
-from fem.statics import inertia_relief
-from fem.structure import Structure
+from fem.algebra.statics import inertia_relief
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

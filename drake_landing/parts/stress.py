@@ -22,14 +22,14 @@ import pandas as pd
 import scipy.sparse as sp
 
 from drake_landing.parts.inventory import sheet_material
+from fem.algebra.sparse_products import shape_of
 from fem.elements.block import Detail, ElementBlock, Kind
-from fem.elements.shell import Shell
-from fem.elements.shell_recovery import PlyRecovery
+from fem.elements.shells.shell import Shell
+from fem.elements.shells.shell_recovery import PlyRecovery
 from fem.elements.stress_measures import plane_von_mises
-from fem.points import Points
-from fem.recovery import ElementTable, TablePiece, element_tables
-from fem.sparse_products import shape_of
-from fem.structure import Structure
+from fem.geometry.points import Points
+from fem.model.structure import Structure
+from fem.recovery.elements import ElementTable, TablePiece, element_tables
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

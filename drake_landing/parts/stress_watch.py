@@ -7,8 +7,8 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.parts.stress import Stresses
-from fem.observation import Chunk
-from fem.sparse_products import shape_of
+from fem.algebra.sparse_products import shape_of
+from fem.response.observation import Chunk
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

@@ -20,8 +20,8 @@ from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.places import Places
 from drake_landing.parts.stress import Stresses, stresses
 from drake_landing.parts.stress_watch import Snapshot, StressWatch
-from fem.observation import Observation, Observer
-from fem.structure import Structure
+from fem.model.structure import Structure
+from fem.response.observation import Observation, Observer
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

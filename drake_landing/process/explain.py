@@ -24,10 +24,10 @@ from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.results.files import FILES
-from fem.linear_solver import factorize
-from fem.structure import Structure
-from systems.compiled import compiled_before
-from systems.modal_body import ModalBody
+from fem.algebra.linear_solver import factorize
+from fem.model.structure import Structure
+from systems.airframe.modal_body import ModalBody
+from systems.tools.compiled import compiled_before
 
 _AT_ONCE = 200_000  # freedoms that are factorised without being asked, some seconds
 _HEAD = 12  # characters

@@ -28,9 +28,9 @@ from drake_landing.transient.extremes import OfFirstCase, element_envelopes
 from drake_landing.transient.kept import Response, kept_response, response_key
 from drake_landing.transient.practices import Practices, compare_practices
 from drake_landing.transient.response import transient_response
-from fem.envelope import Envelope
-from fem.structure import Structure
-from fem.transient import TransientRun
+from fem.model.structure import Structure
+from fem.recovery.envelope import Envelope
+from fem.response.direct import TransientRun
 
 Float64 = npt.NDArray[np.float64]
 

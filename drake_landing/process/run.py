@@ -36,9 +36,9 @@ from drake_landing.transient.deck import (
 from drake_landing.transient.extremes import worst_elements
 from drake_landing.transient.practices import rigid
 from fem.deck.units import units_of
-from fem.structure import Structure
-from systems.compiled import compiled_before
-from systems.modal_body import ModalBody
+from fem.model.structure import Structure
+from systems.airframe.modal_body import ModalBody
+from systems.tools.compiled import compiled_before
 
 
 def run_case(

@@ -14,11 +14,11 @@ import scipy.sparse.csgraph
 from scipy.spatial.distance import cdist
 
 from drake_landing.aircraft.deck_writer import DeckText, Section
-from drake_landing.files import write_aside
-from drake_landing.matrices import NamedMatrix
 from drake_landing.reduced.model import ReducedModel
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
+from fem.files.aside import write_aside
+from fem.files.matrices import NamedMatrix
 
 _MPC = 1
 

@@ -18,9 +18,9 @@ from drake_landing.reduced.make import Reduced
 from drake_landing.reduced.model import ReducedModel
 from drake_landing.show.mesh import drawn_mesh
 from drake_landing.show.modes import motions
-from fem.modes import Modes, normal_modes
-from fem.structure import Structure
-from fem.weight import rigid_mass_properties
+from fem.algebra.modes import Modes, normal_modes
+from fem.model.structure import Structure
+from fem.model.weight import rigid_mass_properties
 
 Float64 = npt.NDArray[np.float64]
 

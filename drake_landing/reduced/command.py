@@ -9,7 +9,7 @@ from drake_landing.reduced.report import report_text, write_report
 from drake_landing.reduced.stored import checked_reduction
 from fem.deck.reader import read_deck
 from fem.errors import InputError, nearest
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 
 def reduce_deck(

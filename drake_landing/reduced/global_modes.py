@@ -17,7 +17,7 @@ import scipy.optimize
 from drake_landing.aircraft.facts import facts
 from drake_landing.aircraft.reference_axis import SIDES, Reference, reference_nodes
 from drake_landing.reduced.model import ReducedModel
-from fem.modes import Modes
+from fem.algebra.modes import Modes
 
 Float64 = npt.NDArray[np.float64]
 Motion = dict[int, Float64]  # grid -> three displacements, three rotations

@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.matrices import NamedMatrix, read_matrices
 from drake_landing.reduced.model import ReducedModel
 from fem.errors import InputError, nearest
+from fem.files.matrices import NamedMatrix, read_matrices
 
 Float64 = npt.NDArray[np.float64]
 

@@ -8,7 +8,7 @@ import numpy as np
 from fem.deck.sections import split_sections
 from fem.deck.source import read_source
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 _SET = re.compile(r"^\s*SET\s*(\d+)\s*=\s*(.*)$", re.IGNORECASE)
 

@@ -9,11 +9,11 @@ import numpy.typing as npt
 
 from drake_landing.airframe.basis import interface_rows
 from drake_landing.reduced.model import ReducedModel
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import ModesError
+from fem.algebra.reduction import Reduction, reduce_craig_bampton
 from fem.errors import InputError
-from fem.linear_solver import SingularMatrixError
-from fem.modes import ModesError
-from fem.reduction import Reduction, reduce_craig_bampton
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 Method = Literal["guyan", "craig-bampton", "dynamic"]
 METHODS: tuple[Method, ...] = ("guyan", "craig-bampton", "dynamic")

@@ -7,11 +7,12 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from drake_landing.files import write_aside, write_csv
-from drake_landing.matrices import write_dmig, write_op4
-from drake_landing.matrices.nastran_h5 import write_h5
+from drake_landing.files import write_csv
 from drake_landing.reduced.checks import ReductionChecks
 from drake_landing.reduced.model import ReducedModel
+from fem.files.aside import write_aside
+from fem.files.matrices import write_dmig, write_op4
+from fem.files.matrices.nastran_h5 import write_h5
 
 PAIRED = 0.5  # MAC from which two modes are the same
 _FILES = ("reduced.h5", "reduced.pch", "reduced.op4", "grids.csv", "report.txt")

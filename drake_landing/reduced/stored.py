@@ -11,7 +11,7 @@ from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.reduced.checks import ReductionChecks, check_reduction
 from drake_landing.reduced.make import Method, reduce_structure
 from drake_landing.reduced.model import ReducedModel
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 # Of the program that makes them: entries of another one are never found.
 _VERSION = 2

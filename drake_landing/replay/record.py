@@ -20,7 +20,6 @@ from pydrake.math import RigidTransform, RotationMatrix
 
 from drake_landing.airframe.skeleton import Skeleton
 from drake_landing.case.axes import gear_in_A, rotation_AB
-from drake_landing.files import write_aside
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.pictures import rods
 from drake_landing.replay.scene import (
@@ -31,7 +30,8 @@ from drake_landing.replay.scene import (
     add_wheel,
     airframe_picture,
 )
-from systems.rotations import exp
+from fem.files.aside import write_aside
+from systems.tools.rotations import exp
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult

@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
 
-from drake_landing.files import write_aside
+from fem.files.aside import write_aside
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -22,12 +22,13 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from drake_landing.files import versions, write_aside, write_csv
+from drake_landing.files import versions, write_csv
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import UNITS, LandingHistory
 from drake_landing.parts.cuts import COMPONENTS
-from fem.envelope import Envelope
-from systems.modal_body import ModalBody
+from fem.files.aside import write_aside
+from fem.recovery.envelope import Envelope
+from systems.airframe.modal_body import ModalBody
 
 if TYPE_CHECKING:
     from drake_landing.parts.watch import PartsFound

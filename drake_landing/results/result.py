@@ -14,7 +14,7 @@ from drake_landing.landing.history import POINT, LandingHistory
 from drake_landing.parts.watch import PartsFound
 from drake_landing.results.stages import Stages
 from drake_landing.transient.practices import Practices
-from fem.envelope import Envelope
+from fem.recovery.envelope import Envelope
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from drake_landing.progress import Reporter, Silent
-from fem.observation import Chunk, Observer
+from fem.response.observation import Chunk, Observer
 
 _PER_GB = 1e9 if sys.platform == "darwin" else 1e6  # of what the system tells
 

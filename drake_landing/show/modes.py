@@ -7,8 +7,8 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.show.mesh import DrawnMesh
-from fem.modes import ModesError, normal_modes
-from fem.structure import Structure
+from fem.algebra.modes import ModesError, normal_modes
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 

@@ -10,7 +10,7 @@ from drake_landing.show.pictures import draw_mesh, draw_modes
 from drake_landing.show.viewer import write_viewer
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 
 def show_model(

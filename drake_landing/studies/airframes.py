@@ -19,8 +19,8 @@ from drake_landing.case.schema import Basis, Case
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.progress import Reporter
 from drake_landing.studies.plan import FULL_MODES, NAMES, Plan, RunName
-from fem.structure import Structure
-from systems.modal_body import ModalBody
+from fem.model.structure import Structure
+from systems.airframe.modal_body import ModalBody
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -17,7 +17,7 @@ from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import gear_peaks
 from drake_landing.landing.run import build_landing, fly
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
 

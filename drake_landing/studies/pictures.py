@@ -4,9 +4,9 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drake_landing.files import write_aside
 from drake_landing.studies import figures
 from drake_landing.studies.plan import FULL_MODES
+from fem.files.aside import write_aside
 
 if TYPE_CHECKING:
     from drake_landing.studies.runs import Study, StudyRun

@@ -15,10 +15,10 @@ from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.studies.airframes import StudyAirframe
 from drake_landing.transient.response import SCHEMES
-from fem.linear_solver import SingularMatrixError
-from fem.observation import Observation
-from fem.transient import direct_transient
-from fem.transient_system import sampled_load
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.response.direct import direct_transient
+from fem.response.observation import Observation
+from fem.response.system import sampled_load
 
 Float64 = npt.NDArray[np.float64]
 

@@ -14,12 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.landing.handover import AttachmentLoads
-from fem.aside import written_aside
 from fem.deck.case_control import Subcase
 from fem.deck.lexer import read_cards
 from fem.deck.sections import split_sections
 from fem.deck.source import Line, read_source
 from fem.errors import InputError
+from fem.files.aside import written_aside
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.envelope import Envelope
-from fem.observation import Chunk, Observer, StateChunk
-from fem.recovery import element_tables
-from fem.structure import Structure
+from fem.model.structure import Structure
+from fem.recovery.elements import element_tables
+from fem.recovery.envelope import Envelope
+from fem.response.observation import Chunk, Observer, StateChunk
 
 Float64 = npt.NDArray[np.float64]
 

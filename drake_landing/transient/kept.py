@@ -10,8 +10,8 @@ from drake_landing.cache import Arrays, Cache, content_key, source_key
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import POINT
 from drake_landing.parts.watch import PartsWatch
-from fem.envelope import Envelope
-from fem.structure import Structure
+from fem.model.structure import Structure
+from fem.recovery.envelope import Envelope
 
 Response = dict[str, pd.DataFrame]
 

@@ -23,7 +23,7 @@ from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import NAMED
 from drake_landing.parts.slices import Slices
 from drake_landing.parts.watch import PartsFound
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]
 

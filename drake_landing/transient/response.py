@@ -13,13 +13,13 @@ import pandas as pd
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import POINT
 from drake_landing.progress import Reporter, Silent
-from fem.generalized_alpha import GeneralizedAlpha
-from fem.linear_solver import SingularMatrixError
-from fem.nastran_scheme import NastranScheme
-from fem.observation import Observation, Observer
-from fem.structure import Structure
-from fem.transient import TransientRun, direct_transient
-from fem.transient_system import TransientLoad, sampled_load
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.model.structure import Structure
+from fem.response.direct import TransientRun, direct_transient
+from fem.response.generalized_alpha import GeneralizedAlpha
+from fem.response.nastran_scheme import NastranScheme
+from fem.response.observation import Observation, Observer
+from fem.response.system import TransientLoad, sampled_load
 
 Float64 = npt.NDArray[np.float64]
 

@@ -15,7 +15,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.constraints.elimination import Elimination
-from fem.points import Points
+from fem.geometry.points import Points
 
 EPZERO = 1e-8
 

@@ -11,23 +11,20 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import scipy.sparse as sp
 from scipy.sparse.csgraph import connected_components
 
+from fem.arrays import Float64, Int64
 from fem.constraints.equations import Equations, concatenate
 from fem.constraints.mpc import read_mpc
 from fem.constraints.rbe3 import read_rbe3
 from fem.constraints.rigid import read_rbar, read_rbe2
 from fem.constraints.spc import SinglePointConstraints, read_spc
 from fem.errors import InputError
-from fem.points import Points
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
-
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,9 +6,9 @@ import numpy as np
 
 from fem.constraints.equations import Equations, dense_equations
 from fem.constraints.sets import member_sets
+from fem.deck.references import table, where
 from fem.errors import InputError
-from fem.points import Points
-from fem.tables import table, where
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

@@ -10,24 +10,21 @@ freedoms of the element become the dependent ones; the equations are the same.
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
+from fem.arrays import Float64, Int64
 from fem.constraints.equations import (
     Equations,
     components,
     dense_equations,
     rigid_motion,
 )
+from fem.deck.references import table, where
 from fem.errors import InputError
-from fem.points import Points
-from fem.tables import table, where
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
-
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 
 def read_rbe3(deck: "Deck", points: Points) -> list[Equations]:

@@ -11,9 +11,9 @@ from fem.constraints.equations import (
     dense_equations,
     rigid_motion,
 )
+from fem.deck.references import table, where
 from fem.errors import InputError
-from fem.points import Points
-from fem.tables import table, where
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fem.elements.block import Int64
+from fem.arrays import Int64
+from fem.deck.references import table
 from fem.errors import InputError
-from fem.points import Points
-from fem.tables import table
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

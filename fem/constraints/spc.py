@@ -9,9 +9,9 @@ import pandas as pd
 
 from fem.constraints.equations import components
 from fem.constraints.sets import member_sets
+from fem.deck.references import table, where
 from fem.errors import InputError
-from fem.points import Points
-from fem.tables import table, where
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.sparse as sp
 
+from fem.arrays import Int64
 from fem.constraints.autospc import Singularities, find_singularities
 from fem.constraints.elimination import Elimination, eliminate
-from fem.elements.block import Int64
 from fem.errors import InputError
-from fem.points import Points
+from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.case_control import Subcase

@@ -3,16 +3,15 @@
 from collections.abc import Iterable, Mapping
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
-from fem.coordinates import resolve
+from fem.arrays import Int64
 from fem.deck import catalogue
 from fem.deck.cleanup import ids
 from fem.deck.deck import Deck
 from fem.errors import InputError
+from fem.geometry.coordinates import resolve
 
-Int64 = npt.NDArray[np.int64]
 Tables = Mapping[str, pd.DataFrame]
 
 _MOST = 20  # problems of one kind that are listed

@@ -13,13 +13,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
+from fem.arrays import Float64
 from fem.deck.deck import Deck
 from fem.errors import InputError, nearest
 
-Float64 = npt.NDArray[np.float64]
 Frames = Mapping[int, str]
 
 

@@ -12,11 +12,7 @@ frames (CD). Scalar elements act on freedoms of the displacement frames directly
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-import numpy as np
-import numpy.typing as npt
-
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
+from fem.arrays import Float64, Int64
 
 
 @dataclass(frozen=True, kw_only=True)

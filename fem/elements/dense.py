@@ -5,7 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from fem.elements.block import CENTRE, Detail, Float64, Int64, Kind, Recovery
+from fem.arrays import Float64, Int64
+from fem.elements.block import CENTRE, Detail, Kind, Recovery
 
 
 @dataclass(frozen=True, kw_only=True)

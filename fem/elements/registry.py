@@ -6,25 +6,25 @@ A further element type is one module and one line here.
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from fem.elements.bar import read_cbar
-from fem.elements.beam import beam_notices, read_cbeam
 from fem.elements.block import ElementBlock
-from fem.elements.bush import read_cbush
-from fem.elements.concentrated_mass import read_conm1, read_conm2
-from fem.elements.hexa import read_chexa
-from fem.elements.penta import read_cpenta
-from fem.elements.pyramid import read_cpyram
-from fem.elements.quad4 import read_cquad4
-from fem.elements.rod import read_crod, read_ctube
-from fem.elements.scalar import read_cdamp, read_celas1, read_celas2, read_cmass
-from fem.elements.shear_panel import read_cshear
-from fem.elements.tetra import read_ctetra
-from fem.elements.tria3 import read_ctria3
-from fem.elements.visc import read_cvisc
+from fem.elements.lines.bar import read_cbar
+from fem.elements.lines.beam import beam_notices, read_cbeam
+from fem.elements.lines.rod import read_crod, read_ctube
+from fem.elements.nonstructural_mass import add_nonstructural_mass
+from fem.elements.scalars.bush import read_cbush
+from fem.elements.scalars.concentrated_mass import read_conm1, read_conm2
+from fem.elements.scalars.scalar import read_cdamp, read_celas1, read_celas2, read_cmass
+from fem.elements.scalars.visc import read_cvisc
+from fem.elements.shells.quad4 import read_cquad4
+from fem.elements.shells.shear_panel import read_cshear
+from fem.elements.shells.tria3 import read_ctria3
+from fem.elements.solids.hexa import read_chexa
+from fem.elements.solids.penta import read_cpenta
+from fem.elements.solids.pyramid import read_cpyram
+from fem.elements.solids.tetra import read_ctetra
 from fem.errors import InputError
-from fem.nonstructural_mass import add_nonstructural_mass
-from fem.points import Points
-from fem.shell_properties import strength_notices
+from fem.geometry.points import Points
+from fem.properties.shells import strength_notices
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

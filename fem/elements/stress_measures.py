@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from fem.elements.block import Float64
+from fem.arrays import Float64
 
 
 def plane_columns(xx: Float64, yy: Float64, xy: Float64) -> tuple[Float64, ...]:

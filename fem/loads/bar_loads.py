@@ -14,18 +14,17 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.elements.bar import Bar, read_cbar
-from fem.elements.beam import Beam, BeamSection, read_cbeam
+from fem.arrays import Float64, Int64
+from fem.deck.references import where
+from fem.elements.lines.bar import Bar, read_cbar
+from fem.elements.lines.beam import Beam, BeamSection, read_cbeam
 from fem.errors import InputError
+from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads
-from fem.points import Points
-from fem.tables import where
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 TYPES = tuple(f"{q}{a}{e}" for q in "FM" for a in "XYZ" for e in ("", "E"))
 SCALES = ("LE", "FR", "LEPR", "FRPR")

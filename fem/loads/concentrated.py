@@ -7,15 +7,13 @@ added up; a set may hold several cards for one freedom.
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
+from fem.arrays import Float64, Int64
+from fem.deck.references import where
 from fem.errors import InputError
-from fem.points import Points
-from fem.tables import where
+from fem.geometry.points import Points
 
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 Terms = tuple[Int64, Float64]
 
 

@@ -8,19 +8,17 @@ import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
 
+from fem.arrays import Float64
 from fem.deck.case_control import Subcase
+from fem.deck.references import where
 from fem.errors import InputError
+from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads, below_each_other, side_by_side
 from fem.loads.static import CARDS, static_element_loads, static_load
 from fem.loads.time_functions import Delayed, Pulse, Table, TimeFunction
-from fem.points import Points
-from fem.tables import where
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
-
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)

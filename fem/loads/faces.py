@@ -9,10 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from fem.points import Points
-
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
+from fem.arrays import Float64, Int64
+from fem.geometry.points import Points
 
 
 @dataclass(frozen=True, kw_only=True)

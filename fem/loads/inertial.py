@@ -7,12 +7,10 @@ scale of PARAM WTMASS already.
 from collections.abc import Callable
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
-from fem.points import Points
-
-Float64 = npt.NDArray[np.float64]
+from fem.arrays import Float64
+from fem.geometry.points import Points
 
 
 def _field(points: Points, basic: Float64) -> Float64:

@@ -8,19 +8,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
+from fem.arrays import Float64, Int64
+from fem.deck.references import where
 from fem.errors import InputError
+from fem.geometry.points import Points
 from fem.loads.faces import Faces, face_forces
-from fem.points import Points
-from fem.tables import where
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 _SHELLS = {"CQUAD4": 4, "CTRIA3": 3, "CSHEAR": 4}
 # Faces of solids: corners in turn, outward or inward; mid-sides by pairs of corners.

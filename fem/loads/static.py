@@ -3,24 +3,22 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
 
+from fem.arrays import Float64, Int64
 from fem.constraints.spc import freedoms
 from fem.errors import InputError
+from fem.geometry.points import Points
 from fem.loads.bar_loads import bar_loads, loads_of_bars
 from fem.loads.concentrated import CONCENTRATED
 from fem.loads.element_loads import ElementLoads, below_each_other
 from fem.loads.inertial import ACCELERATIONS, accelerations
 from fem.loads.pressure import pload, pload2, pload4
-from fem.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-Float64 = npt.NDArray[np.float64]
-Int64 = npt.NDArray[np.int64]
 
 _ON_ELEMENTS = {
     "PLOAD": pload,

@@ -6,7 +6,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-Float64 = npt.NDArray[np.float64]
+from fem.arrays import Float64
 
 
 class TimeFunction(Protocol):

@@ -3,24 +3,22 @@
 from dataclasses import replace
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
-from fem.analysis_model import AnalysisModel, analysis_model
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import Modes, ModesError, normal_modes
+from fem.arrays import Float64
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
-from fem.grid_forces import strain_energy
-from fem.linear_solver import SingularMatrixError
-from fem.modes import Modes, ModesError, normal_modes
-from fem.results import ResultFile
+from fem.files.hdf5 import ResultFile
+from fem.model.structure import Structure
+from fem.recovery.grid_forces import strain_energy
+from fem.solution.analysis_model import AnalysisModel, analysis_model
 from fem.solution.options import Options
 from fem.solution.requests import check_free, ids_of
 from fem.solution.requests import wanted as asked
 from fem.solution.static import write_element_results, write_grid_forces
-from fem.structure import Structure
-
-Float64 = npt.NDArray[np.float64]
 
 _PRINTED = 60
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from fem.linear_solver import SolverName
+from fem.algebra.linear_solver import SolverName
 
 
 class Console(Protocol):

@@ -9,7 +9,7 @@ from fem.deck.case_control import Selection, Subcase
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 ELEMENT_RESULTS: tuple[tuple[str, Kind], ...] = (
     ("FORCE", "force"),

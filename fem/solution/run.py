@@ -5,20 +5,19 @@ from pathlib import Path
 from time import perf_counter
 
 import numpy as np
-import numpy.typing as npt
 
+from fem.arrays import Float64
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
-from fem.results import ResultFile
+from fem.files.hdf5 import ResultFile
+from fem.model.structure import Structure
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
 from fem.solution.requests import check_requests
 from fem.solution.static import solve_statics
 from fem.solution.transient import solve_transients
-from fem.structure import Structure
 
-Float64 = npt.NDArray[np.float64]
 _Solver = Callable[[Structure, list[Subcase], ResultFile, Options], None]
 
 _SOLVERS: dict[int, _Solver] = {

@@ -4,23 +4,21 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 import numpy as np
-import numpy.typing as npt
 
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.statics import inertia_relief, solve_static
+from fem.arrays import Float64
 from fem.constraints.elimination import Elimination
 from fem.deck.case_control import Subcase
 from fem.errors import InputError
-from fem.grid_forces import grid_balance, grids_of, strain_energy
-from fem.linear_solver import SingularMatrixError
+from fem.files.hdf5 import ResultFile
 from fem.loads import enforced_displacements, static_element_loads, static_load
 from fem.loads.element_loads import ElementLoads
-from fem.recovery import element_tables, loaded_bar_tables, station_tables
-from fem.results import ResultFile
+from fem.model.structure import Structure
+from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
+from fem.recovery.grid_forces import grid_balance, grids_of, strain_energy
 from fem.solution.options import Options
 from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
-from fem.statics import inertia_relief, solve_static
-from fem.structure import Structure
-
-Float64 = npt.NDArray[np.float64]
 
 
 def solve_statics(

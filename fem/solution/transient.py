@@ -8,33 +8,37 @@ from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
-import numpy.typing as npt
 import scipy.sparse as sp
 
-from fem.analysis_model import AnalysisModel, analysis_model
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.sparse_products import shape_of
+from fem.arrays import Float64
 from fem.deck.case_control import Selection, Subcase
 from fem.elements.block import Kind
-from fem.envelope import Envelope
 from fem.errors import InputError
-from fem.force_histories import (
+from fem.files.force_histories import (
     GridForceHistory,
     LoadHistory,
     constraint_force_history,
 )
-from fem.grid_forces import constrained_grids, grid_balance, grids_of
-from fem.linear_solver import SingularMatrixError
+from fem.files.hdf5 import PointLayout, ResultFile
 from fem.loads import dynamic_excitation, initial_conditions, time_steps
 from fem.loads.element_loads import ElementLoads, side_by_side
-from fem.modal_damping import modal_ratios
-from fem.modal_transient import modal_transient, residual_vectors
-from fem.observation import Observer, Quantity
-from fem.recovery import (
+from fem.model.structure import Structure
+from fem.recovery.elements import (
     ElementTable,
     element_tables,
     loaded_bar_tables,
     station_tables,
 )
-from fem.results import PointLayout, ResultFile
+from fem.recovery.envelope import Envelope
+from fem.recovery.grid_forces import constrained_grids, grid_balance, grids_of
+from fem.recovery.table_response import TableResponse
+from fem.response.direct import TransientLoad, direct_transient
+from fem.response.modal import modal_transient, residual_vectors
+from fem.response.observation import Observer, Quantity
+from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
 from fem.solution.options import Options
 from fem.solution.requests import (
@@ -44,12 +48,6 @@ from fem.solution.requests import (
     ids_of,
     wanted,
 )
-from fem.sparse_products import shape_of
-from fem.structure import Structure
-from fem.table_response import TableResponse
-from fem.transient import TransientLoad, direct_transient
-
-Float64 = npt.NDArray[np.float64]
 
 _QUANTITIES: dict[str, Quantity] = {
     "DISPLACEMENT": "displacement",

@@ -15,7 +15,7 @@ from drake_landing.airframe.selection import modal_model
 from drake_landing.cache import Cache
 from drake_landing.case.schema import Airframe
 from fem.deck.reader import read_deck
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 DECK = Path(__file__).parent / "tiny_aircraft.bdf"
 GEARS = [51, 52, 53]

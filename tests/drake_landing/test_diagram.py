@@ -12,9 +12,9 @@ from drake_landing.landing.initial_state import (
     attitude,
     set_initial_state,
 )
-from systems.rotations import exp
-from systems.runway import Runway
-from systems.runway_profile import Waves
+from systems.runway.runway import Runway
+from systems.runway.runway_profile import Waves
+from systems.tools.rotations import exp
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import (

@@ -9,7 +9,7 @@ from drake_landing.case.reading import load_case
 from drake_landing.process import explain as explaining
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 HERE = Path(__file__).parent
 DECK = HERE.joinpath("tiny_aircraft.bdf").read_text()

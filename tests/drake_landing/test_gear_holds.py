@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.equilibrium import set_static_equilibrium
-from systems.rotations import rotation_from_quaternion
+from systems.tools.rotations import rotation_from_quaternion
 from tests.drake_landing.landing_gears import aircraft_gears, changed
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body

@@ -17,7 +17,7 @@ from drake_landing.landing.run import (
     fast_mode_notices,
     fly,
 )
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 POINTS = {"nose": 1, "tail": 9}
 

@@ -25,11 +25,11 @@ from drake_landing.parts.watch import PartsFound, PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.practices import HYBRID, RIGID, STATIC, compare_practices
 from drake_landing.transient.response import transient_response
+from fem.algebra.statics import inertia_relief
 from fem.deck.reader import read_deck
-from fem.observation import Observation
-from fem.recovery import element_tables
-from fem.statics import inertia_relief
-from fem.structure import Structure
+from fem.model.structure import Structure
+from fem.recovery.elements import element_tables
+from fem.response.observation import Observation
 
 HERE = Path(__file__).parent
 WING = Beam(

@@ -14,7 +14,7 @@ from drake_landing.parts.reference_places import steady_load
 from drake_landing.parts.slices import balanced
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 HERE = Path(__file__).parent
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()

@@ -23,13 +23,13 @@ from drake_landing.airframe.selection import Candidates, modal_model, select_mod
 from drake_landing.case.reading import parse_case
 from drake_landing.case.schema import Airframe, Case
 from drake_landing.process.aircraft import prepare_aircraft
+from fem.algebra.modes import Modes
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.modal_transient import modal_transient
-from fem.modes import Modes
-from fem.observation import Observation
-from fem.structure import Structure
-from fem.transient_system import sampled_load
+from fem.model.structure import Structure
+from fem.response.modal import modal_transient
+from fem.response.observation import Observation
+from fem.response.system import sampled_load
 
 HERE = Path(__file__).parent
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()

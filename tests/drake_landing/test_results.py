@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.files import write_aside, write_csv
+from drake_landing.files import write_csv
 from drake_landing.landing.history import (
     ATTACHMENT,
     STRUT,
@@ -18,7 +18,8 @@ from drake_landing.landing.history import (
 from drake_landing.parts.places import Places
 from drake_landing.parts.watch import CaseFound, PartsFound
 from drake_landing.results.files import write_history_csv, write_results
-from systems.modal_body import ModalBody
+from fem.files.aside import write_aside
+from systems.airframe.modal_body import ModalBody
 
 TIME = np.linspace(0, 1, 11)
 

@@ -10,7 +10,7 @@ from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.run import fly
 from drake_landing.landing.threads import single_threaded_blas
 from drake_landing.progress import Silent
-from fem.linear_solver import factorize
+from fem.algebra.linear_solver import factorize
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.systems.synthetic_body import aircraft_body
 

@@ -24,10 +24,10 @@ from drake_landing.gears.bodies import AddLandingGear
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.initial_state import angular_velocity, attitude
-from systems.gear_forces import GearForces
-from systems.shock_absorber import ShockAbsorber
-from systems.tire import Tire
-from systems.wheel_kinematics import WheelKinematics
+from systems.gear.gear_forces import GearForces
+from systems.gear.wheel_kinematics import WheelKinematics
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.tire.tire import Tire
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body

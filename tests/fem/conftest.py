@@ -6,14 +6,15 @@ from pathlib import Path
 
 import pytest
 
-from fem.assembly import Matrices, assemble
 from fem.constraints.elimination import Elimination, eliminate
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
-from fem.direct_input import read_direct
 from fem.elements.block import ElementBlock
 from fem.elements.registry import read_elements
-from fem.points import Points
+from fem.geometry.points import Points
+from fem.model.assembly import Matrices, assemble
+from fem.model.direct_input import read_direct
+from fem.model.points import read_points
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Model:
 def build_model(path: Path) -> Model:
     """The model of a deck, without AUTOSPC."""
     deck = read_deck(path)
-    points = Points.from_deck(deck)
+    points = read_points(deck)
     case = deck.case_control[0]
     blocks = read_elements(deck, points, nsm=case.nsm)
     matrices = assemble(

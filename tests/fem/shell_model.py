@@ -8,10 +8,10 @@ import numpy.typing as npt
 import scipy.sparse as sp
 import scipy.sparse.linalg as spla
 
-from fem.elasticity import plane_stress
-from fem.elements.shell import Shell
-from fem.elements.shell_normals import grid_normals
-from fem.shell_properties import ShellProperty, sections
+from fem.elements.shells.shell import Shell
+from fem.elements.shells.shell_normals import grid_normals
+from fem.properties.elasticity import plane_stress
+from fem.properties.shells import ShellProperty, sections
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 import pytest
 
-from fem.aside import written_aside
+from fem.files.aside import written_aside
 
 
 @contextmanager

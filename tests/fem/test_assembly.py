@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from fem.assembly import assemble
 from fem.elements.dense import DenseBlock
 from fem.errors import InputError
-from fem.points import Points
+from fem.geometry.points import Points
+from fem.model.assembly import assemble
 
 FRAME = """
 CORD2R,1,,1.,2.,3.,2.,3.,5.
@@ -104,7 +104,7 @@ def test_a_freedom_named_twice_and_ground():
 
 def test_pieces_give_the_whole(monkeypatch, model):
     built = model(_bars([1, 2, 3, 4], [1, 0, 0, 2], [0, 1, 2]))
-    monkeypatch.setattr("fem.assembly._PIECE", 100)
+    monkeypatch.setattr("fem.model.assembly._PIECE", 100)
     pieces = assemble(built.points, built.blocks).stiffness
     assert abs(pieces - built.matrices.stiffness).max() <= 1e-15 * abs(pieces).max()
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from shell_model import Model, grid, isotropic_property, shells, triangles
 
-from fem.elasticity import isotropic_solid
-from fem.elements.hexa import HEXA8
-from fem.elements.solid import Solid
+from fem.elements.solids.hexa import HEXA8
+from fem.elements.solids.solid import Solid
+from fem.properties.elasticity import isotropic_solid
 
 
 def tip_load(model, corner_grids, component, *, total=1.0):

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem.coordinates import BASIC, Frame, Frames, frame_from_points, resolve
 from fem.deck.schema import COLUMNS
 from fem.errors import InputError
+from fem.geometry.coordinates import BASIC, Frame, Frames, frame_from_points, resolve
 
 CORD = COLUMNS["CORD"].split()
 GRID = COLUMNS["GRID"].split()

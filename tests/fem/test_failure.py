@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import fem
-from fem.failure import Failure, Strength, hill, max_strain, tsai_wu
+from fem.properties.failure import Failure, Strength, hill, max_strain, tsai_wu
 from fem.solution import run_deck
 
 XT, XC, YT, YC, S, F12 = 1500e6, 1200e6, 50e6, 200e6, 70e6, -1e-18

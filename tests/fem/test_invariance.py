@@ -16,7 +16,7 @@ from mixed_structure import ELEMENTS, XYZ, deck, plain
 from scipy.spatial.transform import Rotation
 
 import fem
-from fem.points import Points
+from fem.model.points import read_points
 from fem.solution import run_deck
 
 QUIET = settings(
@@ -52,7 +52,7 @@ def solve(text: str, folder, number=lambda grid: grid, element=lambda e: e) -> R
     path = folder / "model.bdf"
     path.write_text(text)
     model = fem.read_deck(path)
-    points = Points.from_deck(model)
+    points = read_points(model)
     grids = np.searchsorted(points.grid_id, [number(n) for n in XYZ])
     turn = points.rotation[grids]
 
@@ -139,7 +139,7 @@ def test_frames_of_grids_do_not_matter(reference, tmp_path_factory, frames):
         )
     # Vectors of bars stand in the frame CD of their first grid.
     text = deck(grids)
-    model = Points.from_deck(_read(text, tmp_path_factory))
+    model = read_points(_read(text, tmp_path_factory))
     turn = model.rotation[np.searchsorted(model.grid_id, 5)]
     v, offset = (turn.T @ np.array(x) for x in ((0.0, 1.0, 1.0), (0.05, 0.0, 0.1)))
     end = model.rotation[np.searchsorted(model.grid_id, 20)].T @ [0.0, 0.0, 0.1]

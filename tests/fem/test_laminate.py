@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem.elasticity import orthotropic_plane, plane_stress
-from fem.laminate import Laminate
+from fem.properties.elasticity import orthotropic_plane, plane_stress
+from fem.properties.laminate import Laminate
 
 
 def laminate(thickness, angles, *, z0=None, plane=None, shear=None) -> Laminate:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fem.linear_solver import (
+from fem.algebra.linear_solver import (
     SingularMatrixError,
     factorize,
     pardiso_is_available,

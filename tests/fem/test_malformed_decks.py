@@ -16,7 +16,7 @@ from mutations import mutate
 
 import fem
 from fem.cli import _status
-from fem.points import Points
+from fem.model.points import read_points
 
 TRANSIENT = """\
 SUBCASE 3
@@ -40,7 +40,7 @@ def good_deck() -> str:
 
 def unbalance(path: Path, results: Path) -> float:
     """Resultant of loads and reactions of the first static subcase over the largest."""
-    points = Points.from_deck(fem.read_deck(path))
+    points = read_points(fem.read_deck(path))
     with h5py.File(results) as file:
         values = []
         file.visititems(

@@ -5,11 +5,11 @@ import pytest
 import scipy.sparse as sp
 from plain_models import beam
 
-from fem.damping import Damping
-from fem.modal_transient import modal_damping, modal_transient, residual_vectors
-from fem.modes import normal_modes
-from fem.observation import Observation
-from fem.transient import GeneralizedAlpha, TransientLoad, direct_transient
+from fem.algebra.damping import Damping
+from fem.algebra.modes import normal_modes
+from fem.response.direct import GeneralizedAlpha, TransientLoad, direct_transient
+from fem.response.modal import modal_damping, modal_transient, residual_vectors
+from fem.response.observation import Observation
 
 QUANTITIES = ("displacement", "velocity", "acceleration")
 

@@ -7,9 +7,9 @@ import scipy.sparse as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem import eigenproblem
-from fem.modes import ModesError, normal_modes, rigid_energy
-from fem.sturm import SturmCount, count_below
+from fem.algebra import eigenproblem
+from fem.algebra.modes import ModesError, normal_modes, rigid_energy
+from fem.algebra.sturm import SturmCount, count_below
 
 
 def membrane(nx: int, ny: int, *, ground: float = 0.0, every_massless: int = 0):

@@ -9,7 +9,7 @@ import pytest
 
 import fem
 from fem.cli import _status
-from fem.op2 import write_op2
+from fem.files.op2 import write_op2
 
 DECK = """\
 SOL {sol}

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import fem
-from fem.paraview import largest_von_mises, write_paraview
+from fem.files.paraview import largest_von_mises, write_paraview
 
 pv = pytest.importorskip("pyvista")
 

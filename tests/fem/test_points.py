@@ -7,7 +7,8 @@ import pytest
 
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.points import Points
+from fem.geometry.points import Points
+from fem.model.points import read_points
 
 DECK = """\
 CORD2C,1,,0.,0.,0.,0.,0.,1.
@@ -22,7 +23,7 @@ SPOINT,5,91
 def points(tmp_path: Path) -> Points:
     path = tmp_path / "a.bdf"
     path.write_text(DECK)
-    return Points.from_deck(read_deck(path))
+    return read_points(read_deck(path))
 
 
 def test_grids_ascend_and_stand_in_the_basic_frame(points):
@@ -74,7 +75,7 @@ def test_undefined_displacement_frame_is_named(tmp_path):
 def test_model_of_scalar_points_alone(tmp_path):
     path = tmp_path / "a.bdf"
     path.write_text("SPOINT,1,THRU,3\n")
-    points = Points.from_deck(read_deck(path))
+    points = read_points(read_deck(path))
     assert points.size == 3
     assert points.basic_rotation().shape == (3, 3)
     assert points.label(1) == "scalar point 2"

@@ -6,12 +6,12 @@ import scipy.linalg
 import scipy.sparse as sp
 from plain_models import beam, rigid_beam
 
-from fem.damping import Damping
+from fem.algebra.damping import Damping
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import normal_modes
+from fem.algebra.reduction import reduce_craig_bampton, reduce_guyan
 from fem.deck.reader import read_deck
-from fem.linear_solver import SingularMatrixError
-from fem.modes import normal_modes
-from fem.reduction import reduce_craig_bampton, reduce_guyan
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 THREE_MODES_HZ = np.array(
     [349.7289, 2167.436, 6008.068, 11670.88, 19073.61, 28653.9, 43490.38, 104304.1]

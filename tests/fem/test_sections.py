@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pyNastran.bdf.cards.properties.bars import PBARL
 
-from fem.sections import DIMENSIONS, section
+from fem.cross_sections.library import DIMENSIONS, section
 
 EXAMPLES: dict[str, tuple[float, ...]] = {
     "ROD": (0.1,),

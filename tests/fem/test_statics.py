@@ -5,9 +5,9 @@ import pytest
 import scipy.sparse as sp
 from plain_models import beam, rigid_beam
 
-from fem.linear_solver import SingularMatrixError
-from fem.mechanisms import describe, find_mechanisms
-from fem.statics import free_motions, inertia_relief, solve_static
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.statics import free_motions, inertia_relief, solve_static
+from fem.model.mechanisms import describe, find_mechanisms
 
 
 @pytest.mark.parametrize("solver", ["superlu", None])

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fem.damping import Damping
-from fem.linear_solver import SingularMatrixError, pardiso_is_available
-from fem.observation import Observation
-from fem.time_grid import step_groups
-from fem.transient import (
+from fem.algebra.damping import Damping
+from fem.algebra.linear_solver import SingularMatrixError, pardiso_is_available
+from fem.response.direct import (
     GeneralizedAlpha,
     NastranScheme,
     TransientLoad,
     direct_transient,
     sampled_load,
 )
+from fem.response.observation import Observation
+from fem.response.time_grid import step_groups
 
 QUANTITIES = ("displacement", "velocity", "acceleration")
 SCHEMES = [NastranScheme(), GeneralizedAlpha(0.8), GeneralizedAlpha(1.0)]

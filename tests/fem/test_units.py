@@ -11,7 +11,7 @@ from fem.deck.reader import read_deck
 from fem.deck.schema import COLUMNS
 from fem.deck.units import _LOADS, _PLAIN, _SPECIAL, _WITHOUT, SYSTEMS, Units, in_si
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 # Every card of a model whose fields have dimensions; SI.
 TEXT = """\

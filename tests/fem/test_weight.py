@@ -5,7 +5,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from fem.weight import rigid_modes, weigh
+from fem.model.weight import rigid_modes, weigh
 
 FRAMES = """
 CORD2R,1,,1.,2.,3.,2.,3.,5.

@@ -15,11 +15,11 @@ from pydrake.systems.analysis import (
 from pydrake.systems.framework import BasicVector, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import LogVectorOutput
 
-from systems.runway import Runway
-from systems.shock_absorber import ShockAbsorber
-from systems.strut_law import ShockAbsorberParameters
-from systems.tire import Tire
-from systems.tire_law import TireParameters
+from systems.runway.runway import Runway
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.tire import Tire
+from systems.tire.tire_law import TireParameters
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,8 +26,8 @@ from pydrake.multibody.tree import (
 from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
 from pydrake.systems.framework import DiagramBuilder, LeafSystem
 
-from systems.flexible_airframe import FlexibleAirframe
-from systems.modal_body import ModalBody
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.airframe.modal_body import ModalBody
 
 BODIES, LENGTH, MASS, RADIUS = 11, 36.0, 60e3, 2.0
 MIDDLE, TIP = BODIES // 2, 0

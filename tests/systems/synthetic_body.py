@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 
-from systems.modal_body import ModalBody
+from systems.airframe.modal_body import ModalBody
 
 NOSE_GEAR, LEFT_GEAR, RIGHT_GEAR = 101, 102, 103
 NOSE_TIP, TAIL_TIP, LEFT_TIP, RIGHT_TIP = 1, 13, 27, 37

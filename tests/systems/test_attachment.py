@@ -7,11 +7,11 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import SpatialInertia
 from pydrake.systems.framework import DiagramBuilder
 
-from systems.attachment import RigidAttachment
-from systems.bushing_attachment import BushingAttachment
-from systems.flexible_airframe import FlexibleAirframe
-from systems.gear_forces import spatial_forces
-from systems.rotations import (
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.attachment.attachment import RigidAttachment
+from systems.attachment.bushing_attachment import BushingAttachment
+from systems.gear.gear_forces import spatial_forces
+from systems.tools.rotations import (
     exp,
     quaternion_from_rotation,
     rotation_from_quaternion,

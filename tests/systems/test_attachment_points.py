@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from systems.attachment import RigidAttachment
-from systems.attachment_points import AttachmentPoint, HoldPattern
-from systems.bushing_attachment import BushingAttachment
-from systems.rotations import exp, log
+from systems.attachment.attachment import RigidAttachment
+from systems.attachment.attachment_points import AttachmentPoint, HoldPattern
+from systems.attachment.bushing_attachment import BushingAttachment
+from systems.tools.rotations import exp, log
 from tests.systems.small_gears import two_gears
 
 P_FN = np.array([0.3, -0.8, 0.5])

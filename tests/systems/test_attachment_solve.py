@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 from numpy.testing import assert_allclose
 
-from systems import attachment_solve
+from systems.attachment import attachment_solve
 
 
 def test_solve_positive():

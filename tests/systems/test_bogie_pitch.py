@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from pydrake.autodiffutils import AutoDiffXd
 
-from systems.bogie_pitch import (
+from systems.gear.bogie_pitch import (
     BogiePitch,
     BogiePitch_,
     BogiePitchParameters,

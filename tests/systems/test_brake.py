@@ -9,10 +9,16 @@ from hypothesis import strategies as st
 from pydrake.autodiffutils import InitializeAutoDiff
 from scipy.integrate import solve_ivp
 
-from systems.brake import AntiSkid, Brake, BrakeParameters, brake_torque, smooth_fall
-from systems.runway import Runway
-from systems.table import Table
-from systems.tire_law import TireLaw, TireParameters
+from systems.gear.brake import (
+    AntiSkid,
+    Brake,
+    BrakeParameters,
+    brake_torque,
+    smooth_fall,
+)
+from systems.runway.runway import Runway
+from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tools.table import Table
 
 RAMP = BrakeParameters(torque=Table((0.5, 1.5), (0.0, 8e3)))
 SKID = BrakeParameters(torque=8e3, anti_skid=AntiSkid())

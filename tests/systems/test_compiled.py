@@ -5,8 +5,9 @@ from pathlib import Path
 
 import numba
 
-from systems import compiled as module
-from systems import modal_kinematics, vectors
+from systems.airframe import modal_kinematics
+from systems.tools import compiled as module
+from systems.tools import vectors
 
 
 def test_function_is_compiled_and_kept_in_plain_python():

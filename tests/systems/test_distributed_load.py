@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from systems.distributed_load import DistributedLoad, trimmed_shares
-from systems.flexible_airframe import FlexibleAirframe
-from systems.rotations import exp, quaternion_from_rotation
-from systems.table import Table
+from systems.airframe.distributed_load import DistributedLoad, trimmed_shares
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.tools.rotations import exp, quaternion_from_rotation
+from systems.tools.table import Table
 from tests.systems.synthetic_body import aircraft_body
 
 WING = [*range(21, 28), *range(31, 38)]

@@ -13,10 +13,10 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from systems.gas_spring import GasSpring
-from systems.strut_law import ShockAbsorberParameters
-from systems.table import Table
-from systems.tire_law import TireParameters, inflated_stiffness
+from systems.shock_absorber.gas_spring import GasSpring
+from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.tire_law import TireParameters, inflated_stiffness
+from systems.tools.table import Table
 from tests.systems.drop_rig import Rig, drop
 
 MAIN_LEG = Rig(

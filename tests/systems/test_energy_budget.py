@@ -5,7 +5,7 @@ import pytest
 from numpy.testing import assert_allclose
 from pydrake.systems.analysis import Simulator
 
-from systems.energy_budget import EnergyBudget
+from systems.gear.energy_budget import EnergyBudget
 from tests.systems.small_gears import two_gears, violent_state
 
 

@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorConfig
 
-from systems.flexible_airframe import FlexibleAirframe
-from systems.rotations import exp, log, rotation_from_quaternion
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.tools.rotations import exp, log, rotation_from_quaternion
 from tests.systems.synthetic_body import (
     LEFT_GEAR,
     NOSE_GEAR,

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from systems.gear_forces import GearForces
-from systems.wheel_kinematics import WheelKinematics
+from systems.gear.gear_forces import GearForces
+from systems.gear.wheel_kinematics import WheelKinematics
 from tests.systems.small_gears import two_gears, violent_state
 
 

@@ -15,7 +15,7 @@ from pydrake.multibody.tree import (
     WeldJoint,
 )
 
-from systems.joint_tree import JointTree
+from systems.gear.joint_tree import JointTree
 from tests.systems.small_gears import two_gears, violent_state
 
 SOLID = SpatialInertia.SolidSphereWithMass(10.0, 0.5)

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from systems.lever_strut import LeverGeometry
-from systems.rotations import exp
+from systems.gear.lever_strut import LeverGeometry
+from systems.tools.rotations import exp
 
 AXIS = np.array([0.0, 1.0, 0.0])
 UPPER, LOWER = np.array([0.4, 0.05, 1.4]), np.array([0.63, -0.02, -0.1])

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from systems import modal_dynamics
-from systems.rotations import rotation_from_quaternion, skew
+from systems.airframe import modal_dynamics
+from systems.tools.rotations import rotation_from_quaternion, skew
 
 N = 5
 

@@ -5,8 +5,8 @@ import pytest
 from numpy.testing import assert_allclose
 from pydrake.systems.framework import DiagramBuilder
 
-from systems.flexible_airframe import FlexibleAirframe
-from systems.modal_recovery import AddModalRecovery, ModalRecovery
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.airframe.modal_recovery import AddModalRecovery, ModalRecovery
 from tests.systems.synthetic_body import NOSE_GEAR, aircraft_body
 
 

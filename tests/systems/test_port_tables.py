@@ -10,23 +10,23 @@ import pytest
 from pydrake.systems.framework import LeafSystem, PortDataType
 
 import systems
-from systems.attachment import Attachment, RigidAttachment
-from systems.bogie_pitch import BogiePitch, BogiePitchParameters
-from systems.brake import Brake, BrakeParameters
-from systems.bushing_attachment import BushingAttachment
-from systems.distributed_load import DistributedLoad
-from systems.energy_budget import EnergyBudget
-from systems.flexible_airframe import FlexibleAirframe
-from systems.gas_spring import GasSpring
-from systems.gear_forces import GearForces
-from systems.lever_strut import LeverStrut
-from systems.modal_recovery import ModalRecovery
-from systems.shock_absorber import ShockAbsorber
-from systems.side_load import SideLoad
-from systems.strut_law import ShockAbsorberParameters
-from systems.tire import Tire
-from systems.tire_law import TireParameters
-from systems.wheel_kinematics import WheelKinematics
+from systems.airframe.distributed_load import DistributedLoad
+from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.airframe.modal_recovery import ModalRecovery
+from systems.attachment.attachment import Attachment, RigidAttachment
+from systems.attachment.bushing_attachment import BushingAttachment
+from systems.gear.bogie_pitch import BogiePitch, BogiePitchParameters
+from systems.gear.brake import Brake, BrakeParameters
+from systems.gear.energy_budget import EnergyBudget
+from systems.gear.gear_forces import GearForces
+from systems.gear.lever_strut import LeverStrut
+from systems.gear.wheel_kinematics import WheelKinematics
+from systems.shock_absorber.gas_spring import GasSpring
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.shock_absorber.side_load import SideLoad
+from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.tire import Tire
+from systems.tire.tire_law import TireParameters
 from tests.systems.small_gears import two_gears
 from tests.systems.synthetic_body import LEFT_GEAR, RIGHT_GEAR, aircraft_body
 
@@ -109,8 +109,8 @@ def test_docstring_has_one_table_of_exactly_the_ports(kind):
 
 def test_every_system_is_looked_at():
     found = set()
-    for module in pkgutil.iter_modules(systems.__path__):
-        contents = vars(importlib.import_module(f"systems.{module.name}")).values()
+    for module in pkgutil.walk_packages(systems.__path__, "systems."):
+        contents = vars(importlib.import_module(module.name)).values()
         for value in contents:
             if inspect.isclass(value) and issubclass(value, LeafSystem):
                 found.add(value)

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import expm
 from scipy.spatial.transform import Rotation
 
-from systems import rotations
+from systems.tools import rotations
 
 ANGLES = [0.0, 1e-9, 1e-3, 0.3, 0.49, 0.51, 1.5, 3.0]
 

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from systems.runway import SURFACE_FRICTION, Runway
-from systems.runway_profile import CosineBump, MeasuredProfile, Step, Waves
-from systems.tire_law import TireLaw, TireParameters
+from systems.runway.runway import SURFACE_FRICTION, Runway
+from systems.runway.runway_profile import CosineBump, MeasuredProfile, Step, Waves
+from systems.tire.tire_law import TireLaw, TireParameters
 
 MEASURED = MeasuredProfile(
     distance=[0.0, 2.0, 3.5, 6.0, 9.0], height=[0.0, 0.03, 0.01, -0.04, 0.02]

@@ -9,11 +9,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydrake.autodiffutils import InitializeAutoDiff
 
-from systems.friction import bearing_reactions
-from systems.gas_spring import GasSpring, SecondChamber, series_split
-from systems.shock_absorber import ShockAbsorber
-from systems.strut_law import ShockAbsorberParameters, ShockAbsorberTunables, StrutLaw
-from systems.table import Table
+from systems.shock_absorber.friction import bearing_reactions
+from systems.shock_absorber.gas_spring import GasSpring, SecondChamber, series_split
+from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.shock_absorber.strut_law import (
+    ShockAbsorberParameters,
+    ShockAbsorberTunables,
+    StrutLaw,
+)
+from systems.tools.table import Table
 
 ONE_CHAMBER = GasSpring(precharge=45e3, gas_length=0.52, area=0.02)
 TWO_CHAMBERS = GasSpring(

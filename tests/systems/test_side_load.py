@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from systems.side_load import SideLoad
+from systems.shock_absorber.side_load import SideLoad
 
 
 def test_side_load_is_the_sum_of_forces_across_the_strut():

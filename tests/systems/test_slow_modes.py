@@ -6,7 +6,7 @@ from numpy.testing import assert_allclose
 
 from benchmarks.landing_peers import BOUND_HZ, PUBLISHED
 from benchmarks.lattice_landing import land, make_landing, modal_body
-from systems.slow_modes import fastest_rate, with_slow_modes
+from systems.airframe.slow_modes import fastest_rate, with_slow_modes
 from tests.systems.synthetic_body import aircraft_body
 
 

@@ -15,12 +15,12 @@ from pydrake.autodiffutils import InitializeAutoDiff
 from pydrake.math import RollPitchYaw, RotationMatrix
 from scipy.integrate import solve_ivp
 
-from systems.runway import Runway
-from systems.runway_profile import Waves
-from systems.slip import SineSlip, TabulatedSlip, reference_speed, secant
-from systems.table import Table
-from systems.tire import Tire, TireContact, TireTunables
-from systems.tire_law import TireLaw, TireParameters, inflated_stiffness
+from systems.runway.runway import Runway
+from systems.runway.runway_profile import Waves
+from systems.tire.slip import SineSlip, TabulatedSlip, reference_speed, secant
+from systems.tire.tire import Tire, TireContact, TireTunables
+from systems.tire.tire_law import TireLaw, TireParameters, inflated_stiffness
+from systems.tools.table import Table
 
 ONES = [1.0, 1.0, 1.0]
 RADIUS = 0.584

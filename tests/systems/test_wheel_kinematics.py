@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.testing import assert_allclose
 
-from systems.wheel_kinematics import WheelKinematics
+from systems.gear.wheel_kinematics import WheelKinematics
 from tests.systems.small_gears import NAMES, two_gears, violent_state
 
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from fem.cross_sections.library import DIMENSIONS, Section, section
 from fem.deck.fields import Fields
 from fem.deck.values import Malformed
-from fem.sections import DIMENSIONS, Section, section
 
 Row = dict[str, Any]
 Rows = list[Row]

@@ -13,7 +13,7 @@ from pyNastran.bdf.mesh_utils.mass_properties import mass_properties
 from drake_landing.aircraft import AircraftModel, build
 from drake_landing.aircraft.masses import gear_mass_centre
 from fem.deck.reader import read_deck
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 FLIP = np.array([1.0, -1.0, 1.0])
 

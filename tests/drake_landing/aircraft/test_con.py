@@ -6,8 +6,8 @@ import pytest
 from drake_landing.aircraft import build, write_model
 from drake_landing.aircraft.facts import facts
 from drake_landing.cli import app, guarded
+from fem.algebra.modes import normal_modes
 from fem.errors import InputError
-from fem.modes import normal_modes
 
 
 def test_614_grids_of_which_261_are_interface_nodes(con):

@@ -11,10 +11,10 @@ from drake_landing.aircraft.cpacs_reader import read_cpacs
 from drake_landing.aircraft.facts import facts, table
 from drake_landing.aircraft.geometry import wing
 from drake_landing.cli import app, guarded
+from fem.algebra.modes import normal_modes
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.modes import normal_modes
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 SMALL = """<cpacs><header><cpacsVersion>3.2</cpacsVersion></header><vehicles>
 <aircraft><model uID="m"><name>small</name><wings>

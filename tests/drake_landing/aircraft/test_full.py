@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drake_landing.aircraft.facts import facts
-from fem.modes import normal_modes
+from fem.algebra.modes import normal_modes
 
 ELEMENTS = ("CQUAD4", "CTRIA3", "CBAR", "CBUSH", "CONM2")
 

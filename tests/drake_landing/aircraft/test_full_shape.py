@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from fem.quality import quad_measures
+from fem.elements.quality import quad_measures
 
 OVERLAP = 0.02  # m
 LIFTING = ("wing_right", "wing_left", "tailplane_right", "tailplane_left", "fin")

@@ -15,9 +15,9 @@ from drake_landing.aircraft.geometry import fuselage_point, fuselage_section
 from drake_landing.aircraft.model import ModelBuilder
 from drake_landing.aircraft.reference_axis import frame_id, reference_nodes
 from fem import read_deck
-from fem.linear_solver import factorize
-from fem.modes import normal_modes
-from fem.structure import Structure
+from fem.algebra.linear_solver import factorize
+from fem.algebra.modes import normal_modes
+from fem.model.structure import Structure
 
 COARSE = {
     "size": 0.55,

@@ -5,7 +5,7 @@ import pytest
 
 from drake_landing.aircraft import build
 from drake_landing.aircraft.facts import facts, table
-from fem.modes import normal_modes
+from fem.algebra.modes import normal_modes
 
 
 @pytest.fixture(scope="module")

@@ -14,7 +14,6 @@ from drake_landing.cli import app, guarded
 from drake_landing.landing.handover import smooth_curve
 from drake_landing.landing.history import LandingHistory
 from drake_landing.landing.run import build_landing, fly
-from drake_landing.matrices import write_op4
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.run import run_case
 from drake_landing.reduced.imported import read_reduced
@@ -22,7 +21,8 @@ from drake_landing.reduced.make import reduce_structure
 from drake_landing.reduced.report import grid_table
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.structure import Structure
+from fem.files.matrices import write_op4
+from fem.model.structure import Structure
 
 TINY = Path(__file__).parents[1]
 CASE = TINY.joinpath("tiny_case.yaml").read_text()

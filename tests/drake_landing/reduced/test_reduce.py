@@ -9,15 +9,15 @@ import pytest
 from drake_landing.aircraft import write_model
 from drake_landing.cache import Cache
 from drake_landing.cli import app, guarded
-from drake_landing.matrices import read_matrices
 from drake_landing.reduced import stored
 from drake_landing.reduced.checks import check_reduction, reduced_modes
 from drake_landing.reduced.interface import case_sets, interface_grids
 from drake_landing.reduced.make import METHODS, Method, reduce_structure
+from fem.algebra.modes import normal_modes
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.modes import normal_modes
-from fem.structure import Structure
+from fem.files.matrices import read_matrices
+from fem.model.structure import Structure
 
 FEW = (
     "10001, 10010, 10020 THRU 10021, 10030, 10040, 10050, 10060, 10070, 10077,10087,"

@@ -16,7 +16,7 @@ from drake_landing.show.mesh import RIGID, drawn_mesh
 from drake_landing.show.modes import shown_modes
 from drake_landing.show.viewer import viewer_data
 from fem.deck.reader import read_deck
-from fem.structure import Structure
+from fem.model.structure import Structure
 
 HEAD = "SOL 103\nCEND\nBEGIN BULK\nMAT1,1,7.+10,,.33,2800.\n"
 CUBE = (

@@ -7,7 +7,7 @@ from scipy.sparse.linalg import spsolve
 
 from fem.constraints.autospc import find_singularities
 from fem.errors import InputError
-from fem.weight import rigid_modes
+from fem.model.weight import rigid_modes
 
 FRAMES = """
 CORD2R,1,,1.,2.,3.,2.,3.,5.

@@ -8,7 +8,7 @@ import scipy.io
 
 from fem.constraints.rbe3 import read_rbe3
 from fem.deck.reader import read_deck
-from fem.points import Points
+from fem.model.points import read_points
 
 
 @pytest.mark.parametrize("name", ["1", "2", "3", "4", "um_1", "um_2"])
@@ -16,7 +16,7 @@ def test_constraint_matrix_equals_nx(references: Path, name: str):
     stem = references / f"rbe3/make_gm_nx9_rbe3_{name}"
     # The DMAP files that the executive control includes are not needed.
     deck = read_deck(stem.with_suffix(".dat"))
-    points = Points.from_deck(deck)
+    points = read_points(deck)
     (equations,) = read_rbe3(deck, points)
     ours = np.zeros((points.size, points.size))
     ours[equations.dependent[equations.row], equations.column] = equations.value

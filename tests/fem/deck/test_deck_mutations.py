@@ -10,7 +10,7 @@ from mutations import mutate
 
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.points import Points
+from fem.model.points import read_points
 
 # Nearly every kind of card, in all three formats.
 GOOD = """\
@@ -110,7 +110,7 @@ def check(path: Path, text: str) -> None:
     path.write_text(text, encoding="utf-8")
     try:
         deck = read_deck(path)
-        Points.from_deck(deck)
+        read_points(deck)
     except InputError as error:
         problems = error.problems
     else:
@@ -123,7 +123,7 @@ def test_the_deck_is_good(tmp_path):
     path = tmp_path / "a.bdf"
     path.write_text(GOOD)
     deck = read_deck(path)
-    assert Points.from_deck(deck).size == 51
+    assert read_points(deck).size == 51
     assert not any("without effect" in notice for notice in deck.notices)
 
 

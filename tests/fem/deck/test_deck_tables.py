@@ -9,7 +9,7 @@ from pyNastran.bdf.bdf import BDF
 from fem.deck.reader import read_deck
 from fem.deck.schema import ALIASES, COLUMNS
 from fem.errors import InputError
-from fem.points import Points
+from fem.model.points import read_points
 
 
 def test_every_table_of_the_schema_is_there_with_its_columns(read):
@@ -30,7 +30,7 @@ def test_grdset_baror_and_property_defaults(read):
     assert (ps[5], ps[4]) == ("345", "0")
     bars = deck.cards["CBAR"].set_index("eid")
     assert (bars.loc[3, "x3"], bars.loc[4, "x2"], bars.loc[3, "pid"]) == (1.0, 1.0, 1)
-    assert Points.from_deck(deck).ps[3:].tolist() == [
+    assert read_points(deck).ps[3:].tolist() == [
         [False] * 6,
         [False, False, True, True, True, False],
     ]
@@ -197,7 +197,7 @@ SUPERELEMENTS = ["cbSuper1Mode", "cbSuper3Modes", "guyanSuper", "guyanSuperStati
 @pytest.mark.parametrize("name", DECKS)
 def test_reference_decks_read_and_are_placed_as_pynastran_places_them(references, name):
     deck = read_deck(references / name, ignore=("CBEND",))
-    points = Points.from_deck(deck)
+    points = read_points(deck)
     if name.startswith(("truss_frame", "rbe3")):
         return  # their executive control includes files that are not there
     model = BDF(log=logging.getLogger("pynastran"))

@@ -10,7 +10,7 @@ import pytest
 
 from fem.deck.reader import read_deck
 from fem.elements.registry import read_elements
-from fem.points import Points
+from fem.model.points import read_points
 
 SURFACES_AND_SOLIDS = ("CQUAD4", "CTRIA3", "CHEXA", "CPENTA", "CTETRA")
 
@@ -29,7 +29,7 @@ def read_op2(path):
 @pytest.fixture(scope="module")
 def model(folder):
     deck = read_deck(folder / "static_solid_shell_bar.bdf")
-    points = Points.from_deck(deck)
+    points = read_points(deck)
     blocks = read_elements(deck, points)
     return points, [b for b in blocks if b.card in SURFACES_AND_SOLIDS]
 

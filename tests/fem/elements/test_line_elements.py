@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.sparse.linalg import spsolve
 
-from fem.weight import rigid_modes, weigh
+from fem.model.weight import rigid_modes, weigh
 
 # One of each line element between grids with frames of all kinds.
 FRAMES = """

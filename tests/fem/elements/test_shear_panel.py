@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem.elements.shear_panel import ShearPanel, panel_shape
-from fem.materials import Isotropic
+from fem.elements.shells.shear_panel import ShearPanel, panel_shape
+from fem.properties.materials import Isotropic
 
 E, NU, T = 7e10, 0.3, 0.002
 G = E / 2.6

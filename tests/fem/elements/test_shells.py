@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shell_model import Model, isotropic_property, shells, triangles
 
-from fem.elements.shell import Shell
-from fem.elements.shell_geometry import facet
-from fem.laminate import Laminate
-from fem.shell_properties import ShellProperty, sections
+from fem.elements.shells.shell import Shell
+from fem.elements.shells.shell_geometry import facet
+from fem.properties.laminate import Laminate
+from fem.properties.shells import ShellProperty, sections
 
 E, NU = 1e6, 0.25
 # MacNeal and Harder's patch: irregular inner quadrilateral.

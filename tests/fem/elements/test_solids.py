@@ -7,9 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shell_model import scattered
 
-from fem.elasticity import isotropic_solid
-from fem.elements.hexa import HEXA8, HEXA20
-from fem.elements.isoparametric import (
+from fem.elements.solids.hexa import HEXA8, HEXA20
+from fem.elements.solids.isoparametric import (
     HEX20_POINTS,
     HEX_CORNERS,
     PENTA_CORNERS,
@@ -17,11 +16,12 @@ from fem.elements.isoparametric import (
     jacobians,
     tetra15,
 )
-from fem.elements.penta import PENTA6
-from fem.elements.pyramid import PYRAM5
-from fem.elements.solid import Shape, Solid, stress_rotation
+from fem.elements.solids.penta import PENTA6
+from fem.elements.solids.pyramid import PYRAM5
+from fem.elements.solids.solid import Shape, Solid, stress_rotation
+from fem.elements.solids.tetra import TETRA4, TETRA10
 from fem.elements.stress_measures import solid_principal
-from fem.elements.tetra import TETRA4, TETRA10
+from fem.properties.elasticity import isotropic_solid
 
 E, NU = 1e6, 0.25
 _EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from fem.deck.reader import read_deck
+from fem.elements.quality import quality_notices, quality_table
 from fem.elements.registry import read_elements
 from fem.errors import InputError
-from fem.points import Points
-from fem.quality import quality_notices, quality_table
+from fem.model.points import read_points
 
 SQUARE = """\
 GRID,1,,0.,0.,0.
@@ -25,7 +25,7 @@ def blocks(tmp_path):
         path = tmp_path / "a.bdf"
         path.write_text(f"BEGIN BULK\n{head}{bulk}\nENDDATA\n")
         deck = read_deck(path)
-        return read_elements(deck, Points.from_deck(deck))
+        return read_elements(deck, read_points(deck))
 
     return read
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from fem.deck.deck import Deck
+from fem.geometry.points import Points
 from fem.loads import static_load
-from fem.points import Points
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.loads.faces import Faces, face_forces
 from fem.loads.pressure import pload4
-from fem.points import Points
+from fem.model.points import read_points
 
 SQUARE = """\
 GRID,1
@@ -120,7 +120,7 @@ def solid(tmp_path, card: str, quadratic: bool, faces, pressure=2.0):
     path = tmp_path / "a.bdf"
     path.write_text("\n".join(lines))
     deck = read_deck(path)
-    points = Points.from_deck(deck)
+    points = read_points(deck)
     dof, value = pload4(deck, points, deck.cards["PLOAD4"])
     total = np.zeros(points.size)
     np.add.at(total, dof, value)

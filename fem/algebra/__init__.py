@@ -1,0 +1,1 @@
+"""Algebra of structures: solvers, eigenvalues, reduction, damping. It knows no deck."""

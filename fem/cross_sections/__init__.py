@@ -1,0 +1,1 @@
+"""Cross-sections of bars: dimensions to section constants."""

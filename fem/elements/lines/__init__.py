@@ -1,0 +1,1 @@
+"""Line elements: rods, bars, beams."""

@@ -1,0 +1,1 @@
+"""Scalar elements, bushes, dampers and concentrated masses."""

@@ -1,0 +1,1 @@
+"""Plates, shells and shear panels."""

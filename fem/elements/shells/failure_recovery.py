@@ -1,0 +1,50 @@
+"""Failure indices of shells as columns of a result table."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem.arrays import Float64, Int64
+from fem.elements.block import Recovery
+from fem.properties.failure import Failure
+
+
+def failure_names(plies: int) -> tuple[str, ...]:
+    """Columns: of ply k from the bottom with the suffix `_p<k>`, then the largest."""
+    names = ("ply_index", "bond_index")
+    each = (f"{name}_p{k}" for k in range(1, plies + 1) for name in names)
+    return (*each, "max_index")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FailureRecovery(Recovery):
+    """Failure indices from the resultants N M Q at the element centre.
+
+    Attributes:
+        laminate: (e,) which of the laminates.
+        maps: per laminate (p, 2, 5, 8): stresses and strains 11 22 12 1z 2z of its
+            plies from resultants in material axes; (a tuple: not one per element).
+        failures: per laminate; None: NaN for its elements.
+    """
+
+    laminate: Int64
+    maps: tuple[Float64, ...]
+    failures: tuple[Failure | None, ...]
+
+    def derive(self, linear: Float64) -> Float64:
+        """(..., e, 2 p + 1) from (..., e, 8) resultants in material axes."""
+        values = np.full((*linear.shape[:-1], len(self.columns)), np.nan)
+        for k in np.unique(self.laminate):
+            failure = self.failures[k]
+            if failure is None:
+                continue
+            own = np.flatnonzero(self.laminate == k)
+            ply = np.einsum("pkij,...j->k...pi", self.maps[k], linear[..., own, :])
+            bond = failure.bond_index(ply[0, ..., 3:])
+            index = failure.ply_index(ply[0, ..., :3], ply[1, ..., :3])
+            both = np.stack([index, bond], axis=-1)
+            values[..., own, : 2 * len(failure.plies)] = both.reshape(
+                *both.shape[:-2], -1
+            )
+            values[..., own, -1] = np.fmax.reduce(both, axis=(-2, -1))
+        return values

@@ -1,0 +1,22 @@
+"""CQUAD4: four-node shell, free of locking, warped or flat.
+
+Compatible linear displacements and rotations on the mean plane; hybrid resultants
+(`shell_hybrid`), edge-sampled transverse shear with MacNeal's residual bending
+flexibility (`shell_shear`), drilling penalty (`shell_drilling`), rigid links from the
+mean plane to the grids (`shell_geometry`). On rectangles its nodal forces are those of
+MSC and NX Nastran.
+"""
+
+from typing import TYPE_CHECKING
+
+from fem.elements.shells.shell import Shell
+from fem.elements.shells.shell_reader import read_shells
+from fem.geometry.points import Points
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+
+def read_cquad4(deck: "Deck", points: Points) -> list[Shell]:
+    """The CQUAD4 blocks of a deck: with PSHELL, with PCOMP; see `read_shells`."""
+    return read_shells(deck, points, "CQUAD4", 4)

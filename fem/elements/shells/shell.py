@@ -1,0 +1,275 @@
+"""Blocks of shells: CQUAD4 and CTRIA3 with their matrices and results.
+
+Membrane and bending: `shell_hybrid`; transverse shear: `shell_shear`; drilling:
+`shell_drilling`. Mass sits on the surface of the offset shell, that of a laminate at
+its own height.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fem.arrays import Float64, Int64
+from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.dense import DenseBlock, some
+from fem.elements.shells.failure_recovery import FailureRecovery, failure_names
+from fem.elements.shells.shell_drilling import drilling
+from fem.elements.shells.shell_geometry import Facet, facet, matrix_to_grids, to_grids
+from fem.elements.shells.shell_hybrid import in_plane
+from fem.elements.shells.shell_mass import shell_mass
+from fem.elements.shells.shell_recovery import (
+    FORCE,
+    FibreRecovery,
+    PlyRecovery,
+    ply_names,
+    point_names,
+    strain_names,
+    stress_names,
+)
+from fem.elements.shells.shell_shear import shear
+from fem.properties.shell_section import ShellSection, strain_rotation, vector_rotation
+from fem.properties.shells import ShellProperty
+
+# Elements that are computed at a time: their arrays stay in the cache.
+_CHUNK = 1024
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shell(DenseBlock):
+    """CQUAD4 or CTRIA3 elements with PSHELL or with PCOMP; basic axes.
+
+    Attributes:
+        pid: (e,) property ids.
+        property_card: "PSHELL" or "PCOMP".
+        corners: (e, n, 3) grids in the basic frame.
+        offset: (e,) ZOFFS.
+        normals: (e, n, 3) normals at the grids, zero where there is none.
+        section: constitutive matrices in element axes.
+        k6rot: PARAM K6ROT.
+        properties: the properties in use.
+        which: (e,) index into `properties`.
+        angle: (e,) rad, from the element x axis to the material x axis.
+    """
+
+    pid: Int64
+    property_card: str
+    corners: Float64
+    offset: Float64
+    normals: Float64
+    section: ShellSection
+    k6rot: float
+    properties: tuple[ShellProperty, ...]
+    which: Int64
+    angle: Float64
+
+    @property
+    def shape(self) -> Facet:
+        """Element axes and flat shape."""
+        return facet(self.corners, self.offset, self.normals)
+
+    @property
+    def extent(self) -> Float64:
+        """(e,) area."""
+        return self.shape.area
+
+    def with_nonstructural_mass(self, per_area: Float64) -> "Shell":
+        """The same shells with additional mass per area (e,)."""
+        total = self.section.nonstructural + per_area
+        return replace(self, section=replace(self.section, nonstructural=total))
+
+    def stiffness(self) -> Float64:
+        """(e, 6 n, 6 n)."""
+        size = self.dof.shape[1]
+        matrix = np.empty((len(self.id), size, size))
+        for start in range(0, len(self.id), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            shape, section = self._shape(part), self.section.take(part)
+            local = in_plane(shape, section).stiffness()
+            local += shear(shape, section)[0]
+            if self.k6rot:
+                local += drilling(shape, section.membrane[:, 2, 2], self.k6rot)
+            matrix[part] = matrix_to_grids(local, shape)
+        return matrix
+
+    def _shape(self, part: slice) -> Facet:
+        return facet(self.corners[part], self.offset[part], self.normals[part])
+
+    def structural_damping(self) -> Float64 | None:
+        """(e,) GE."""
+        return some(self.section.ge)
+
+    def mass(self, *, coupled: bool) -> Float64:
+        """(e, 6 n, 6 n), translations of the mass's own height."""
+        return shell_mass(self.shape, self.section, self.offset, coupled=coupled)
+
+    def resultants(self, *, corner: bool = False) -> Float64:
+        """(e, p, 8, 6 n) N, M and Q from grid freedoms in basic axes, element axes.
+
+        M = int sigma z dz. p is 1, or 5 (centre, corners) for quadrilaterals with
+        `corner`; Q is that of the centre everywhere.
+        """
+        parts = [
+            self._resultants(slice(start, start + _CHUNK), corner)
+            for start in range(0, len(self.id), _CHUNK)
+        ]
+        return np.concatenate(parts)
+
+    def _resultants(self, part: slice, corner: bool) -> Float64:
+        shape, section = self._shape(part), self.section.take(part)
+        plate = in_plane(shape, section).resultant(corner=corner)
+        force = shear(shape, section)[1][:, None]
+        force = np.broadcast_to(force, (*plate.shape[:2], *force.shape[2:]))
+        local = np.concatenate([plate, force], axis=2)
+        e, p = local.shape[:2]
+        flat = to_grids(local.reshape(e, p * 8, -1), shape)
+        return flat.reshape(e, p, 8, -1)
+
+    def forces(self, *, corner: bool = False) -> Recovery:
+        """Nastran's shell forces at the centre, with `corner` also at the corners."""
+        resultant = self.resultants(corner=corner)
+        resultant[:, :, 3:6] *= -1.0
+        e, p = resultant.shape[:2]
+        return Recovery(
+            table=self.card,
+            columns=point_names(FORCE, p),
+            matrix=resultant.reshape(e, p * 8, -1),
+            id=self.id,
+        )
+
+    def stresses(self, *, corner: bool = False) -> Recovery:
+        """Stresses at both fibres; of laminates the ply stresses (centre)."""
+        if self.property_card == "PCOMP":
+            return self._plies()
+        resultant = self.resultants(corner=corner)
+        thickness, inertia = self.section.thickness, self.section.inertia
+        fibre = self.section.fibre
+        uniform = resultant[:, :, None, 0:3] / thickness[:, None, None, None, None]
+        bent = resultant[:, :, None, 3:6] / inertia[:, None, None, None, None]
+        matrix = uniform + fibre[:, None, :, None, None] * bent
+        e, p = matrix.shape[:2]
+        return FibreRecovery(
+            table=self.card,
+            columns=stress_names(p),
+            matrix=matrix.reshape(e, p * 6, -1),
+            id=self.id,
+            fibre=fibre,
+        )
+
+    def strains(self, *, corner: bool = False, curvature: bool = True) -> Recovery:
+        """Strains of the reference surface and curvatures (Nastran's STRCUR).
+
+        With `curvature` False the strains at both fibres (FIBER), of laminates always
+        the strains of the plies. Nastran's curvature
+        has the sign of its M; the first column is then 0 and -1.
+        """
+        if self.property_card == "PCOMP":
+            return self._plies(strain=True)
+        resultant = self.resultants(corner=corner)
+        flexible = self._flexibility()[:, None]
+        plane = flexible @ resultant[:, :, :6]
+        membrane, bent = plane[:, :, :3], plane[:, :, 3:]
+        fibre = np.broadcast_to([0.0, -1.0], (len(self.id), 2))
+        if not curvature:
+            fibre = self.section.fibre
+        height = fibre[:, None, :, None, None]
+        if curvature:
+            matrix = np.stack([membrane, -bent], axis=2)
+        else:
+            matrix = membrane[:, :, None] + height * bent[:, :, None]
+        e, p = matrix.shape[:2]
+        return FibreRecovery(
+            table=self.card,
+            columns=strain_names(p),
+            matrix=matrix.reshape(e, p * 6, -1),
+            id=self.id,
+            fibre=fibre,
+            strain=True,
+        )
+
+    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+        """Results at the centre or with the corners, strains of surface or fibres."""
+        if kind == "failure":
+            return self._failures()
+        if kind == "force":
+            return self.forces(corner=detail.corner)
+        if kind == "stress":
+            return self.stresses(corner=detail.corner)
+        return self.strains(corner=detail.corner, curvature=not detail.fibre)
+
+    def _flexibility(self) -> Float64:
+        """(e, 6, 6) pseudo-inverse of [A B; B D]: absent parts give no strain."""
+        return _flexibility(
+            self.section.membrane, self.section.coupling, self.section.bending
+        )
+
+    def _material_resultants(self) -> Float64:
+        """(e, 8, 6 n) N, M and Q at the centre in material axes."""
+        resultant = self.resultants()[:, 0]
+        turn = strain_rotation(self.angle)
+        # Stresses turn with the inverse transpose of what turns strains.
+        turn = np.linalg.inv(turn).transpose(0, 2, 1)
+        return np.concatenate(
+            [
+                turn @ resultant[:, 0:3],
+                turn @ resultant[:, 3:6],
+                vector_rotation(self.angle) @ resultant[:, 6:8],
+            ],
+            axis=1,
+        )
+
+    def _plies(self, *, strain: bool = False) -> Recovery:
+        """Ply results from the resultants at the centre, turned to material axes."""
+        found = [ply_map(p, strain=strain) for p in self.properties]
+        most = max(map(len, found))
+        maps = np.full((len(found), 5 * most, 8), np.nan)
+        for k, ply in enumerate(found):
+            maps[k, : 5 * len(ply)] = ply.reshape(-1, 8)
+        return PlyRecovery(
+            table=f"{self.card}_COMPOSITE",
+            columns=ply_names(most, strain=strain),
+            matrix=self._material_resultants(),
+            id=self.id,
+            laminate=self.which,
+            maps=tuple(maps),
+            strain=strain,
+        )
+
+    def _failures(self) -> Recovery | None:
+        """Failure indices; None where no property of the block asks for them."""
+        failures = tuple(p.failure for p in self.properties)
+        if not any(failures):
+            return None
+        maps = [
+            np.stack([ply_map(p), ply_map(p, strain=True)], axis=1)
+            for p in self.properties
+        ]
+        return FailureRecovery(
+            table=f"{self.card}_COMPOSITE",
+            columns=failure_names(max(map(len, maps))),
+            matrix=self._material_resultants(),
+            id=self.id,
+            laminate=self.which,
+            maps=tuple(maps),
+            failures=failures,
+        )
+
+
+def ply_map(found: ShellProperty, *, strain: bool = False) -> Float64:
+    """(p, 5, 8) ply results of a laminate from resultants, see `Laminate.recovery`."""
+    assert found.laminate is not None
+    one = np.s_[None]
+    flexible = _flexibility(
+        found.membrane[one], found.coupling[one], found.bending[one]
+    )
+    return found.laminate.recovery(flexible[0], strain=strain)
+
+
+def _flexibility(a: Float64, b: Float64, d: Float64) -> Float64:
+    """(e, 6, 6) pseudo-inverse of [A B; B D], scaled to be independent of units."""
+    joined = np.concatenate(
+        [np.concatenate([a, b], axis=2), np.concatenate([b, d], axis=2)], axis=1
+    )
+    scale = np.sqrt(np.einsum("eii->ei", joined))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    both = scale[:, :, None] * scale[:, None, :]
+    return np.linalg.pinv(joined / both, hermitian=True, rcond=1e-12) / both

@@ -1,0 +1,149 @@
+"""Element axes of shells, their flat shape, and the link from grids to that shape.
+
+A quadrilateral is flattened onto its mean plane: the normal is that of the diagonals,
+the corners lie alternately h above and below. The element x axis bisects the diagonals
+(Nastran's rule), that of a triangle runs along its first side. Rigid links along the
+normal connect each grid with its point on the flat reference surface, so that warp and
+offset (ZOFFS) leave rigid motions free of strain and forces in equilibrium.
+
+Where facets meet at an angle, bending moments have a part along the normal of the grid,
+which nothing but the weak drilling stiffness would carry. Therefore each corner has its
+own normal d (that of the grid, PARAM SNORM, or of the warped corner): the part of the
+rotation along d, less the rotation of the membrane, does not bend the element.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fem.arrays import Float64
+
+
+@dataclass(frozen=True, kw_only=True)
+class Facet:
+    """Flat shape of n-cornered shells, units of the deck.
+
+    Attributes:
+        axes: (e, 3, 3) rows are the element axes x, y, z in the basic frame.
+        xy: (e, n, 2) corners in the element plane, about the centroid of the corners.
+        link: (e, n) height of the flat reference surface above each grid along z.
+        slope: (e, n, 2) normal of the corner, x and y component over z component.
+    """
+
+    axes: Float64
+    xy: Float64
+    link: Float64
+    slope: Float64
+
+    @property
+    def corners(self) -> int:
+        """Number of corners n."""
+        return self.xy.shape[1]
+
+    @property
+    def area(self) -> Float64:
+        """(e,) area of the flat shape."""
+        x, y = self.xy[..., 0], self.xy[..., 1]
+        return 0.5 * np.sum(
+            x * np.roll(y, -1, axis=1) - np.roll(x, -1, axis=1) * y, axis=1
+        )
+
+    @property
+    def edges(self) -> Float64:
+        """(e, n, 2) vectors from each corner to the next."""
+        return np.roll(self.xy, -1, axis=1) - self.xy
+
+
+def unit(vectors: Float64) -> Float64:
+    """Unit vectors; zero vectors stay zero, for the quality check to name."""
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return vectors / np.where(length == 0.0, 1.0, length)
+
+
+def element_normals(corners: Float64) -> Float64:
+    """(e, 3) unit normals of triangles or quadrilaterals (e, n, 3)."""
+    return unit(np.cross(*_spanning(corners)))
+
+
+def _spanning(corners: Float64) -> tuple[Float64, Float64]:
+    if corners.shape[1] == 4:
+        return corners[:, 1] - corners[:, 3], corners[:, 2] - corners[:, 0]
+    return corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+
+
+def facet(
+    corners: Float64, offset: Float64 | None = None, normals: Float64 | None = None
+) -> Facet:
+    """Element axes and flat shape of triangles or quadrilaterals.
+
+    Args:
+        corners: (e, n, 3) grids in the basic frame, n 3 or 4.
+        offset: (e,) ZOFFS, the surface above the grids along the element z axis.
+        normals: (e, n, 3) normals at the grids, basic frame, zero where a grid has
+            none; the corner's own is taken there.
+    """
+    first, second = _spanning(corners)
+    z = unit(np.cross(first, second))
+    x = unit(unit(first) + unit(second)) if corners.shape[1] == 4 else unit(first)
+    axes = np.stack([x, np.cross(z, x), z], axis=1)
+    local = (corners - corners.mean(axis=1, keepdims=True)) @ axes.transpose(0, 2, 1)
+    above = np.zeros(len(corners)) if offset is None else offset
+    return Facet(
+        axes=axes,
+        xy=local[..., :2],
+        link=above[:, None] - local[..., 2],
+        slope=_slopes(corners, axes, normals),
+    )
+
+
+def _slopes(corners: Float64, axes: Float64, normals: Float64 | None) -> Float64:
+    """(e, n, 2) slopes of the corner normals against the element's z axis."""
+    edge = np.roll(corners, -1, axis=1) - corners
+    own = unit(np.cross(np.roll(edge, 1, axis=1), edge))
+    if normals is not None:
+        own = np.where(normals.any(axis=2)[..., None], normals, own)
+    local = own @ axes.transpose(0, 2, 1)
+    upright = np.abs(local[..., 2:]) > 0.5
+    slope = local[..., :2] / np.where(upright, local[..., 2:], 1.0)
+    # Below rounding of the coordinates a facet is flat.
+    return np.where(upright & (np.abs(slope) > 1e-12), slope, 0.0)
+
+
+def to_grids(local: Float64, shape: Facet) -> Float64:
+    """Columns of an operator turned from flat local to grid freedoms, basic axes.
+
+    Args:
+        local: (e, m, 6 n) acts on u v w rx ry rz of the flat corners, element axes.
+        shape: geometry.
+
+    Returns:
+        (e, m, 6 n) acts on T1 T2 T3 R1 R2 R3 of the grids in basic axes.
+    """
+    e, m, _ = local.shape
+    parts = local.reshape(e, m, shape.corners, 2, 3)
+    force, moment = parts[..., 0, :].copy(), parts[..., 1, :].copy()
+    # A point h above the grid moves by theta x (0, 0, h) = (h ry, -h rx, 0).
+    moment[..., 1] += force[..., 0] * shape.link[:, None, :]
+    moment[..., 0] -= force[..., 1] * shape.link[:, None, :]
+    if shape.slope.any():
+        # rx and ry become rx - s_x (rz - spin), ry - s_y (rz - spin).
+        spun = np.einsum("emnk,enk->emn", moment[..., :2], shape.slope)
+        moment[..., 2] -= spun
+        total = spun.sum(axis=2)[:, :, None, None]
+        force[..., :2] += total * centre_spin(shape)[:, None]
+    turned = np.stack([force, moment], axis=-2).reshape(e, -1, 3) @ shape.axes
+    return turned.reshape(e, m, -1)
+
+
+def centre_spin(shape: Facet) -> Float64:
+    """(e, n, 2) rotation (v,x - u,y) / 2 of the membrane at the centre from (u, v)."""
+    x = shape.xy
+    # Of both shapes: dN/dx = (y_next - y_previous) / 2A, dN/dy = -(x_next - ...) / 2A.
+    across = np.roll(x, -1, axis=1) - np.roll(x, 1, axis=1)
+    return 0.25 * across / shape.area[:, None, None]
+
+
+def matrix_to_grids(local: Float64, shape: Facet) -> Float64:
+    """(e, 6 n, 6 n) element matrix turned on both sides, see `to_grids`."""
+    half = to_grids(local, shape).transpose(0, 2, 1)
+    return to_grids(half, shape)

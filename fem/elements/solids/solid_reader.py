@@ -1,0 +1,161 @@
+"""CHEXA, CPENTA, CTETRA and CPYRAM cards to blocks: PSOLID, material axes, shape."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from fem.arrays import Float64, Int64
+from fem.deck.references import refer, table, where
+from fem.elements.solids.isoparametric import jacobians
+from fem.elements.solids.solid import Shape, Solid, stress_rotation
+from fem.errors import InputError
+from fem.geometry.points import Points
+from fem.properties.elasticity import ElasticityTable
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+
+def read_solids(
+    deck: "Deck", points: Points, card: str, shapes: Sequence[Shape]
+) -> list[Solid]:
+    """Blocks of one card, one per number of nodes.
+
+    Raises:
+        InputError: undefined references, unsupported numbers of nodes, turned inside
+            out; all of them.
+    """
+    rows = table(deck, card).sort_values("eid", ignore_index=True)
+    if rows.empty:
+        return []
+    nodes = [np.asarray(n, dtype=np.int64) for n in rows["nodes"]]
+    count = np.array([len(n) if (n > 0).all() else -1 for n in nodes])
+    problems = _unsupported(rows, card, count, shapes)
+    blocks = []
+    for shape in shapes:
+        chosen = np.flatnonzero(count == shape.nodes)
+        if not len(chosen):
+            continue
+        grids = np.stack([nodes[i] for i in chosen])
+        part = rows.iloc[chosen].reset_index(drop=True)
+        try:
+            blocks.append(_block(deck, points, part, shape, grids))
+        except InputError as error:
+            problems += error.problems
+    if problems:
+        raise InputError(problems)
+    return blocks
+
+
+def _unsupported(
+    rows: pd.DataFrame, card: str, count: Int64, shapes: Sequence[Shape]
+) -> list[str]:
+    known = [shape.nodes for shape in shapes]
+    bad = np.flatnonzero(~np.isin(count, known))
+    if not len(bad):
+        return []
+    expected = " or ".join(str(n) for n in known)
+    return [
+        f"{where(card, rows.iloc[bad[0]])}"
+        + (f" and {len(bad) - 1} more" if len(bad) > 1 else "")
+        + f": mid-side nodes are given in part or are not supported, expected "
+        f"{expected} nodes"
+    ]
+
+
+def _block(
+    deck: "Deck", points: Points, rows: pd.DataFrame, shape: Shape, grids: Int64
+) -> Solid:
+    at = points.rows(grids)
+    nodes = points.xyz[at]
+    check_jacobian(rows, shape, nodes)
+    properties = refer(rows, shape.card, "pid", table(deck, "PSOLID"), "PSOLID")
+    materials = ElasticityTable(deck)
+    mids = properties["mid"].to_numpy(np.int64)
+    _check_materials(rows, shape, materials, mids)
+    axes = material_axes(points, properties, nodes, shape)
+    used = {int(m): materials[int(m)] for m in np.unique(mids)}
+    own = np.stack([used[int(m)].solid for m in mids])
+    turn = stress_rotation(axes, strain=True)
+    return Solid(
+        card=shape.card,
+        id=rows["eid"].to_numpy(np.int64),
+        dof=(6 * at[:, :, None] + np.arange(3)).reshape(len(rows), -1),
+        pid=rows["pid"].to_numpy(np.int64),
+        shape=shape,
+        nodes=nodes,
+        elasticity=turn.transpose(0, 2, 1) @ own @ turn,
+        axes=axes,
+        rho=np.array([used[int(m)].rho for m in mids]),
+        ge=np.array([used[int(m)].ge for m in mids]),
+    )
+
+
+def _check_materials(
+    rows: pd.DataFrame, shape: Shape, materials: ElasticityTable, mids: Int64
+) -> None:
+    problems = []
+    for mid in np.unique(mids):
+        user = where(shape.card, rows.iloc[int(np.argmax(mids == mid))])
+        found = materials.problem(int(mid), ("MAT1", "MAT9"), user)
+        if found is None and np.linalg.cond(materials[int(mid)].solid) > 1e12:
+            found = f"{user}: material {mid} is singular, expected a regular matrix"
+        if found:
+            problems.append(found)
+    if problems:
+        raise InputError(problems)
+
+
+def check_jacobian(rows: pd.DataFrame, shape: Shape, nodes: Float64) -> None:
+    """Refuse solids whose Jacobian is not positive.
+
+    Raises:
+        InputError: all of them, with the least value relative to the mean.
+    """
+    slope = shape.derivatives(shape.checked)
+    value = np.linalg.det(jacobians(nodes, slope))
+    scale = np.abs(value).mean(axis=1)
+    least = value.min(axis=1) / np.where(scale == 0.0, 1.0, scale)
+    bad = np.flatnonzero(~(least > 1e-9))
+    if len(bad):
+        raise InputError(
+            f"{where(shape.card, rows.iloc[i])}: its Jacobian determinant falls to "
+            f"{least[i]:.3g} of the mean, expected positive: the order of its nodes or "
+            "its shape is wrong"
+            for i in bad
+        )
+
+
+def material_axes(
+    points: Points, properties: pd.DataFrame, nodes: Float64, shape: Shape
+) -> Float64:
+    """(e, 3, 3) rows are the axes of CORDM: 0 basic, -1 the element, else a system.
+
+    The element axes are the orthogonal ones closest to the natural directions at the
+    centre; a tetrahedron has x along G1-G2 and z normal to G1-G2-G3.
+    """
+    cordm = properties["cordm"].to_numpy(np.int64)
+    axes = np.broadcast_to(np.eye(3), (len(nodes), 3, 3)).copy()
+    own = cordm == -1
+    if own.any():
+        axes[own] = _element_axes(nodes[own], shape)
+    given = cordm > 0
+    if given.any():
+        centre = nodes[given].mean(axis=1)
+        axes[given] = points.frames.triads(cordm[given], centre).transpose(0, 2, 1)
+    return axes
+
+
+def _element_axes(nodes: Float64, shape: Shape) -> Float64:
+    if shape.card == "CTETRA":
+        x = nodes[:, 1] - nodes[:, 0]
+        z = np.cross(x, nodes[:, 2] - nodes[:, 0])
+        triad = np.stack([x, np.cross(z, x), z], axis=1)
+        return triad / np.linalg.norm(triad, axis=2, keepdims=True)
+    centre = shape.checked[:1]
+    natural = jacobians(nodes, shape.derivatives(centre))[:, 0]
+    natural = natural / np.linalg.norm(natural, axis=2, keepdims=True)
+    left, _, right = np.linalg.svd(natural)
+    return left @ right

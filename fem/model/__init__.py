@@ -1,0 +1,1 @@
+"""A deck and one of its subcases, put together: matrices, weight, mechanisms."""

@@ -1,0 +1,82 @@
+"""Direct input of matrices: DMIG selected by K2GG, M2GG and B2GG in case control."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.sparse as sp
+
+from fem.deck.references import table, where
+from fem.errors import InputError, nearest
+from fem.geometry.points import Points
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+SYMMETRIC = 6
+
+
+@dataclass(frozen=True, kw_only=True)
+class DirectMatrices:
+    """Matrices to add to the g-set, None where nothing is selected."""
+
+    stiffness: sp.csr_matrix | None = None
+    mass: sp.csr_matrix | None = None
+    damping: sp.csr_matrix | None = None
+
+
+NONE = DirectMatrices()
+
+
+def read_direct(
+    deck: "Deck", points: Points, *, k2gg: str = "", m2gg: str = "", b2gg: str = ""
+) -> DirectMatrices:
+    """Selected matrices with the factors PARAM CK2, CM2 and CB2.
+
+    Raises:
+        InputError: unknown names, freedoms that do not exist, matrices that are not
+            symmetric.
+    """
+
+    def chosen(name: str, factor: str) -> sp.csr_matrix | None:
+        if not name:
+            return None
+        scale = deck.number(factor)
+        return sp.csr_matrix(scale * dmig(deck, points, name))
+
+    return DirectMatrices(
+        stiffness=chosen(k2gg, "CK2"),
+        mass=chosen(m2gg, "CM2"),
+        damping=chosen(b2gg, "CB2"),
+    )
+
+
+def dmig(deck: "Deck", points: Points, name: str) -> sp.csr_matrix:
+    """(g, g) matrix of a DMIG.
+
+    Raises:
+        InputError: see `read_direct`.
+    """
+    rows = table(deck, "DMIG")
+    chosen = rows[rows["name"].str.upper() == name.upper()] if len(rows) else rows
+    if chosen.empty:
+        known = sorted(rows["name"].tolist()) if len(rows) else []
+        raise InputError(
+            f"DMIG {name} is not in the deck; it has {known or 'none'}"
+            + nearest(name, known)
+        )
+    card = chosen.iloc[0]
+    place = where("DMIG", card)
+    if int(card["form"]) != SYMMETRIC:
+        raise InputError(f"{place}: form {card['form']}, expected 6 (symmetric)")
+    try:
+        row = points.dof(card["rowids"], card["rowcs"])
+        column = points.dof(card["colids"], card["colcs"])
+    except InputError as error:
+        raise InputError(f"{place}: {p}" for p in error.problems) from None
+    values = np.asarray(card["values"], float)
+    matrix = sp.csr_matrix((values, (row, column)), shape=(points.size, points.size))
+    size = abs(matrix).max() if matrix.nnz else 0.0
+    if abs(matrix - matrix.T).max() > 1e-12 * size:
+        raise InputError(f"{place}: the two triangles differ, expected symmetry")
+    return matrix

@@ -1,0 +1,44 @@
+"""Grid and scalar points of a deck."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from fem.errors import InputError
+from fem.geometry.coordinates import resolve
+from fem.geometry.points import Points
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+
+def read_points(deck: Deck) -> Points:
+    """Points of a deck.
+
+    Raises:
+        InputError: coordinate systems that cannot be placed.
+    """
+    grid = deck.cards["GRID"].sort_values("id", kind="stable")
+    frames, xyz = resolve(deck.cards["CORD"], grid)
+    undefined = sorted(set(grid["cd"].tolist()) - set(frames) - {-1})
+    if undefined:
+        raise InputError(
+            f"GRID {grid['id'][grid['cd'] == cid].tolist()[:5]}: coordinate "
+            f"system CD {cid} is not defined"
+            for cid in undefined
+        )
+    cd = grid["cd"].to_numpy(np.int64)
+    digits = grid["ps"].to_numpy(dtype=str)
+    return Points(
+        grid_id=grid["id"].to_numpy(np.int64),
+        xyz=xyz,
+        # CD -1 marks a fluid point; it has no displacement axes of its own.
+        rotation=frames.triads(np.where(cd < 0, 0, cd), xyz),
+        ps=np.stack([np.char.find(digits, c) >= 0 for c in "123456"], axis=-1)
+        if len(grid)
+        else np.zeros((0, 6), bool),
+        spoint_id=np.unique(deck.cards["SPOINT"]["id"].to_numpy(np.int64)),
+        frames=frames,
+    )

@@ -1,0 +1,388 @@
+"""`Structure`: a deck and one of its subcases, put together for the solutions.
+
+Everything is computed when it is first asked for, and kept. The matrices on the free
+set (f) are plain scipy.sparse matrices, so that any function of `fem` that works on
+matrices works on a structure, on parts of it, or on somebody else's matrices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import TYPE_CHECKING, Literal, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+import pandas as pd
+import scipy.sparse as sp
+
+from fem.algebra.damping import Damping
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.arrays import Float64, Int64
+from fem.constraints.autospc import Singularities
+from fem.constraints.elimination import Elimination
+from fem.constraints.sets import freedoms_of
+from fem.constraints.support import Support, support
+from fem.elements.quality import quality_notices, quality_table
+from fem.elements.registry import element_notices, read_elements
+from fem.errors import InputError
+from fem.model.assembly import Matrices, assemble
+from fem.model.damping import damping_in_transients, inactive_damping
+from fem.model.direct_input import read_direct
+from fem.model.mechanisms import Mechanism, describe, find_mechanisms
+from fem.model.pieces import describe_pieces, unconnected_pieces
+from fem.model.points import read_points
+from fem.model.weight import Weight, rigid_modes, weigh
+
+if TYPE_CHECKING:
+    from fem.algebra.linear_solver import SolverName
+    from fem.deck.case_control import Subcase
+    from fem.deck.deck import Deck
+    from fem.elements.block import ElementBlock
+
+Answer = TypeVar("Answer")
+
+
+class Structure:
+    """A finite-element model with the constraints of one subcase.
+
+    Args:
+        deck: the deck.
+        subcase: its subcase; None: the first.
+
+    Attributes:
+        deck, subcase: as given.
+        points: grids and scalar points, numbering of the g-set.
+    """
+
+    def __init__(self, deck: Deck, subcase: Subcase | None = None) -> None:
+        self.deck = deck
+        self.subcase = subcase if subcase is not None else deck.case_control[0]
+        self.points = read_points(deck)
+
+    @classmethod
+    def from_deck(cls, deck: Deck, subcase: int | None = None) -> Structure:
+        """Structure of a deck with the constraints of a subcase.
+
+        Args:
+            deck: from `fem.read_deck`.
+            subcase: its id; None: the first.
+
+        Raises:
+            InputError: no such subcase, or coordinate systems that cannot be placed.
+        """
+        return cls(deck, None if subcase is None else deck.subcase(subcase))
+
+    def with_subcase(self, subcase: Subcase) -> Structure:
+        """The same model under another subcase; what does not change is shared."""
+        other = Structure.__new__(Structure)
+        other.deck, other.subcase, other.points = self.deck, subcase, self.points
+        same_model = all(
+            getattr(subcase, name) == getattr(self.subcase, name)
+            for name in ("nsm", "k2gg", "m2gg", "b2gg")
+        )
+        same_support = same_model and all(
+            getattr(subcase, name) == getattr(self.subcase, name)
+            for name in ("spc", "mpc")
+        )
+        for names, shared in (
+            (_OF_MODEL, same_model),
+            (_OF_SUPPORT, same_support),
+        ):
+            if shared:
+                for name in names & self.__dict__.keys():
+                    other.__dict__[name] = self.__dict__[name]
+        return other
+
+    # -- the model ------------------------------------------------------------------
+
+    @cached_property
+    def blocks(self) -> list[ElementBlock]:
+        """All elements.
+
+        Raises:
+            InputError: whatever is wrong with any of them.
+        """
+        return read_elements(self.deck, self.points, nsm=self.subcase.nsm)
+
+    @cached_property
+    def matrices(self) -> Matrices:
+        """K, M, B and K4 of the g-set."""
+        case = self.subcase
+        direct = read_direct(
+            self.deck, self.points, k2gg=case.k2gg, m2gg=case.m2gg, b2gg=case.b2gg
+        )
+        return assemble(
+            self.points,
+            self.blocks,
+            coupled=self.deck.number("COUPMASS") > 0,
+            wtmass=self.deck.number("WTMASS"),
+            direct=direct,
+            factors=(
+                self.deck.number("CK1"),
+                self.deck.number("CM1"),
+                self.deck.number("CB1"),
+            ),
+        )
+
+    @cached_property
+    def weight(self) -> Weight:
+        """Mass, centre of gravity and inertia (PARAM GRDPNT: reference grid)."""
+        grid = int(self.deck.number("GRDPNT"))
+        reference = self.points.xyz[self.points.rows(grid)] if grid > 0 else np.zeros(3)
+        return weigh(
+            self.points,
+            self.matrices.mass,
+            reference=reference,
+            wtmass=self.deck.number("WTMASS") or 1.0,  # 0 leaves no mass to divide
+        )
+
+    # -- constraints ----------------------------------------------------------------
+
+    @cached_property
+    def _support(self) -> Support:
+        return support(
+            self.deck,
+            self.points,
+            self.subcase,
+            self.matrices.stiffness,
+            self.generalised_dof,
+        )
+
+    @property
+    def elimination(self) -> Elimination:
+        """Constraints of the subcase, AUTOSPC included: u_g = T u_f + u_0."""
+        return self._support.elimination
+
+    @property
+    def autospc(self) -> Singularities | None:
+        """Freedoms that AUTOSPC constrained; None where it is switched off."""
+        return self._support.autospc
+
+    @cached_property
+    def generalised_dof(self) -> Int64:
+        """(q,) rows of the g-set that QSET reserves for generalised coordinates."""
+        return freedoms_of(self.deck, self.points, "QSET")
+
+    @cached_property
+    def analysis_dof(self) -> Int64:
+        """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
+        rows = freedoms_of(self.deck, self.points, "ASET")
+        return np.setdiff1d(rows, self.generalised_dof)
+
+    @cached_property
+    def support_dof(self) -> Int64:
+        """(r,) rows of the g-set that SUPORT names."""
+        return freedoms_of(self.deck, self.points, "SUPORT")
+
+    def free_rows(self, dof: npt.ArrayLike, card: str) -> Int64:
+        """Positions of rows of the g-set in the f-set.
+
+        Raises:
+            InputError: rows that are constrained or dependent; `card` names their set.
+        """
+        dof = np.asarray(dof, dtype=np.int64)
+        f = self.elimination.f
+        at = np.searchsorted(f, dof)
+        at_safe = np.minimum(at, max(len(f) - 1, 0))
+        bad = (
+            (at >= len(f)) | (f[at_safe] != dof) if len(f) else np.ones(len(dof), bool)
+        )
+        if bad.any():
+            raise InputError(
+                f"{card} names {self.points.label(int(d))}, which is constrained or "
+                "dependent; expected a free one"
+                for d in dof[bad][:20]
+            )
+        return at
+
+    # -- matrices of the free set -----------------------------------------------------
+
+    @property
+    def stiffness(self) -> sp.csr_matrix:
+        """(f, f) K."""
+        return self._support.stiffness
+
+    @cached_property
+    def mass(self) -> sp.csr_matrix:
+        """(f, f) M."""
+        return self.elimination.reduce(self.matrices.mass)
+
+    @cached_property
+    def damping_g(self) -> Damping:
+        """B = B1 + (G/W3 + ALPHA2) K + ALPHA1 M + K4/W4 of the g-set, in transients."""
+        return damping_in_transients(self.deck, self.matrices)
+
+    @cached_property
+    def damping(self) -> Damping:
+        """(f, f) B with its proportional part apart, see `damping_g`."""
+        whole = self.damping_g
+        if whole.other is None:
+            return whole
+        return replace(whole, other=self.elimination.reduce(whole.other))
+
+    @cached_property
+    def rigid_body(self) -> Float64:
+        """(f, 6) motions of the free set as a rigid body about the centre of gravity.
+
+        Motions that constraints prevent cost energy; `normal_modes` sorts them out.
+        """
+        return rigid_modes(self.points, self.weight.center)[self.elimination.f]
+
+    # -- between the sets -------------------------------------------------------------
+
+    @property
+    def size(self) -> int:
+        """Number f of free freedoms."""
+        return len(self.elimination.f)
+
+    def displacement(self, u_f: Float64) -> Float64:
+        """(g,) or (g, k) displacements in displacement frames from those of the f-set.
+
+        Enforced displacements of the subcase are included.
+        """
+        u_g = self.elimination.T @ u_f
+        u_0 = self.elimination.u_0
+        return u_g + (u_0 if u_g.ndim == 1 else u_0[:, None])
+
+    def shape(self, u_f: Float64) -> Float64:
+        """As `displacement`, without enforced displacements: modes, velocities."""
+        return self.elimination.T @ u_f
+
+    def load(self, p_g: Float64 | sp.spmatrix | sp.sparray) -> sp.csr_matrix | Float64:
+        """Loads on the f-set from loads on the g-set, Tᵀ P; sparse stays sparse."""
+        return self.elimination.T.T @ p_g
+
+    def operator(
+        self,
+        grid_ids: npt.ArrayLike,
+        components: Sequence[int] = (1, 2, 3, 4, 5, 6),
+        *,
+        frame: Literal["displacement", "basic"] = "displacement",
+    ) -> sp.csr_matrix:
+        """Rows that give displacements of grids from u_f.
+
+        Args:
+            grid_ids: (k,) grids.
+            components: (c,) of 1 to 6, the same for all.
+            frame: axes of the displacements: each grid's CD, or the basic frame.
+
+        Returns:
+            (k c, f), grid by grid; its transpose turns forces at the grids into loads.
+        """
+        ids = np.atleast_1d(np.asarray(grid_ids, dtype=np.int64))
+        dof = self.points.dof(ids[:, None], np.asarray(components)[None, :]).reshape(-1)
+        if frame == "displacement":
+            return sp.csr_matrix(self.elimination.T[dof])
+        rows = sp.csr_matrix(self.points.basic_rotation()[dof])
+        return sp.csr_matrix(rows @ self.elimination.T)
+
+    # -- messages ---------------------------------------------------------------------
+
+    @cached_property
+    def notices(self) -> list[str]:
+        """What the user should know about this model, in words."""
+        lines = [
+            *self.deck.notices,
+            *element_notices(self.deck),
+            *quality_notices(self.blocks),
+            *describe_pieces(self.pieces),
+        ]
+        if self.autospc is not None and len(self.autospc.dof):
+            lines.append(f"AUTOSPC constrained {self.autospc.summary(self.points)}")
+        return lines
+
+    @cached_property
+    def quality(self) -> pd.DataFrame:
+        """Worst shapes of surface and solid elements, see `quality_table`."""
+        return quality_table(self.blocks)
+
+    @cached_property
+    def pieces(self) -> list[Int64]:
+        """Points of each piece of the model that nothing connects to the others."""
+        e = self.elimination
+        direct = read_direct(self.deck, self.points, k2gg=self.subcase.k2gg)
+        return unconnected_pieces(
+            self.points, self.blocks, e.dependence, e.m, direct.stiffness
+        )
+
+    @cached_property
+    def damping_notices(self) -> list[str]:
+        """Damping that the deck gives and that a transient does not use."""
+        return inactive_damping(self.deck, self.matrices)
+
+    def label(self, row: int) -> str:
+        """Name of a row of the f-set: "grid 12 T3"."""
+        return self.points.label(int(self.elimination.f[row]))
+
+    def singular_message(
+        self, *, dynamic: bool = False, solver: SolverName | None = None
+    ) -> list[str]:
+        """Lines that name what moves without stiffness; empty where nothing does.
+
+        Args:
+            dynamic: leave out motions that move mass.
+            solver: as in `fem.algebra.linear_solver.factorize`.
+        """
+        found = self.mechanisms(dynamic=dynamic, solver=solver)
+        return describe(found, self.label, dynamic=dynamic)
+
+    def mechanisms(
+        self, *, dynamic: bool = False, solver: SolverName | None = None
+    ) -> list[Mechanism]:
+        """Motions of the free set without stiffness, rigid-body motions included.
+
+        Args:
+            dynamic: leave out motions that move mass.
+            solver: as in `fem.algebra.linear_solver.factorize`.
+        """
+        f, grids = self.elimination.f, 6 * len(self.points.grid_id)
+        return find_mechanisms(
+            self.stiffness,
+            solver=solver,
+            mass=self.mass if dynamic else None,
+            point=np.where(f < grids, f // 6, f),
+        )
+
+    def guarded(
+        self,
+        function: Callable[[], Answer],
+        *,
+        dynamic: bool,
+        error: type[Exception] | tuple[type[Exception], ...],
+    ) -> Answer:
+        """Call a solution; its numerical failure becomes an error that names grids.
+
+        Raises:
+            InputError: `function` raised `error`; the message names what moves freely.
+        """
+        try:
+            return function()
+        except error as caught:
+            lines = self.singular_message(dynamic=dynamic)
+            if not lines:
+                if not isinstance(caught, SingularMatrixError):
+                    raise InputError(f"{self.deck.path}: {caught}") from None
+                row = getattr(caught, "row", None)
+                at = "" if row is None else f" at {self.label(row)}"
+                lines = [f"the stiffness is not positive definite{at}: {caught}"]
+            raise InputError(
+                [f"{self.deck.path}: the structure is singular", *lines]
+            ) from None
+
+
+_OF_MODEL = frozenset(
+    {
+        "analysis_dof",
+        "blocks",
+        "damping_g",
+        "generalised_dof",
+        "matrices",
+        "support_dof",
+        "weight",
+    }
+)
+_OF_SUPPORT = frozenset(
+    {"_support", "mass", "damping", "rigid_body", "notices", "damping_notices"}
+)

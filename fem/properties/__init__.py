@@ -1,0 +1,1 @@
+"""Materials, laminates and shell sections."""

@@ -1,0 +1,62 @@
+"""Isotropic materials of line elements, completed as Nastran does."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from fem.arrays import Float64
+from fem.deck.references import column, refer, table
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+
+@dataclass(frozen=True, kw_only=True)
+class Isotropic:
+    """MAT1 values, one per user; units of the deck.
+
+    Attributes:
+        e, g, nu: (n,) Young's modulus, shear modulus, Poisson's ratio.
+        rho: (n,) density.
+        ge: (n,) structural damping coefficient.
+    """
+
+    e: Float64
+    g: Float64
+    nu: Float64
+    rho: Float64
+    ge: Float64
+
+
+def complete(e: Float64, g: Float64, nu: Float64) -> tuple[Float64, Float64, Float64]:
+    """E, G and ν with the blank one of three (NaN) from E = 2 (1 + ν) G.
+
+    Where two are blank both are zero, as Nastran's guide has it for MAT1.
+    """
+    e, g, nu = (np.array(v, float) for v in (e, g, nu))
+    no_e, no_g, no_nu = np.isnan(e), np.isnan(g), np.isnan(nu)
+    single = (no_e.astype(int) + no_g + no_nu) == 1
+    with np.errstate(divide="ignore", invalid="ignore"):
+        e_full = np.where(no_e & single, 2.0 * (1.0 + nu) * g, e)
+        g_full = np.where(no_g & single, e / (2.0 * (1.0 + nu)), g)
+        nu_full = np.where(no_nu & single, e / (2.0 * g) - 1.0, nu)
+    return np.nan_to_num(e_full), np.nan_to_num(g_full), np.nan_to_num(nu_full)
+
+
+def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:
+    """MAT1 of each row's `mid`.
+
+    Raises:
+        InputError: materials that are not defined as MAT1, all of them.
+    """
+    mat = refer(rows, card, "mid", table(deck, "MAT1"), "MAT1")
+    e, g, nu = complete(*(mat[c].to_numpy(float) for c in ("e", "g", "nu")))
+    return Isotropic(
+        e=e,
+        g=g,
+        nu=nu,
+        rho=column(mat, "rho"),
+        ge=column(mat, "ge"),
+    )

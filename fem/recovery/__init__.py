@@ -1,0 +1,1 @@
+"""Element results, forces of constraint and extremes from displacements."""

@@ -1,0 +1,1 @@
+"""Transient response, direct and modal. It knows no deck."""

@@ -1,0 +1,1 @@
+"""The flexible airframe and what follows from its modes."""

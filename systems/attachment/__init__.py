@@ -1,0 +1,1 @@
+"""How the airframe holds the landing gears."""

@@ -1,0 +1,1 @@
+"""Motion of wheels and struts, brakes, bogies, and all forces of a gear at once."""

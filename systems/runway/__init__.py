@@ -1,0 +1,1 @@
+"""Runways: profiles and friction."""

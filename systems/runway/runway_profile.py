@@ -1,0 +1,219 @@
+"""Profiles of a runway: height over distance, with slope and curvature.
+
+A measured profile, a 1-cosine bump, waves, a step with a smooth ramp. All have a
+continuous slope, which the nearest-point contact of `runway` needs.
+"""
+
+import csv
+import math
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import Protocol
+
+from systems.tools.checks import require
+from systems.tools.scalar import Scalar, cos, sin
+
+
+class Profile(Protocol):
+    """Height of a runway over distance, with continuous slope."""
+
+    @property
+    def max_curvature(self) -> float:
+        """Largest d²h/dd² (a hollow is positive), 1/m."""
+        ...
+
+    def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        """Height m, slope, curvature 1/m at distance d, m."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class CosineBump:
+    """One full 1-cosine: h = H/2 (1 - cos 2π(d - start)/length).
+
+    Attributes:
+        height: m, negative for a dip.
+        length: m.
+        start: m, distance at which it begins.
+    """
+
+    height: float
+    length: float
+    start: float
+
+    def __post_init__(self) -> None:
+        require("1-cosine bump", "height", self.height, "m")
+        require("1-cosine bump", "length", self.length, "m", above=0.0)
+        require("1-cosine bump", "start", self.start, "m")
+
+    @property
+    def max_curvature(self) -> float:
+        return 2.0 * abs(self.height) * (math.pi / self.length) ** 2
+
+    def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        u = d - self.start
+        if u <= 0.0 or u >= self.length:
+            return 0.0, 0.0, 0.0
+        k, h = 2.0 * math.pi / self.length, 0.5 * self.height
+        c = cos(k * u)
+        return h * (1.0 - c), h * k * sin(k * u), h * k * k * c
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waves:
+    """A sine without end: h = amplitude sin 2π(d - start)/wavelength.
+
+    Attributes:
+        amplitude, wavelength, start: m.
+    """
+
+    amplitude: float
+    wavelength: float
+    start: float = 0.0
+
+    def __post_init__(self) -> None:
+        require("runway waves", "amplitude", self.amplitude, "m")
+        require("runway waves", "wavelength", self.wavelength, "m", above=0.0)
+        require("runway waves", "start", self.start, "m")
+
+    @property
+    def max_curvature(self) -> float:
+        return abs(self.amplitude) * (2.0 * math.pi / self.wavelength) ** 2
+
+    def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        k = 2.0 * math.pi / self.wavelength
+        s = sin(k * (d - self.start))
+        slope = self.amplitude * k * cos(k * (d - self.start))
+        return self.amplitude * s, slope, -self.amplitude * k * k * s
+
+
+@dataclass(frozen=True, kw_only=True)
+class Step:
+    """A step with a half-cosine ramp, smooth at both ends.
+
+    Attributes:
+        height: m, negative for a step down.
+        ramp: m, length of the ramp.
+        start: m, distance at which the ramp begins.
+    """
+
+    height: float
+    ramp: float
+    start: float
+
+    def __post_init__(self) -> None:
+        require("runway step", "height", self.height, "m")
+        require("runway step", "ramp", self.ramp, "m", above=0.0)
+        require("runway step", "start", self.start, "m")
+
+    @property
+    def max_curvature(self) -> float:
+        return 0.5 * abs(self.height) * (math.pi / self.ramp) ** 2
+
+    def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        u = d - self.start
+        if u <= 0.0:
+            return 0.0, 0.0, 0.0
+        if u >= self.ramp:
+            return self.height, 0.0, 0.0
+        k, h = math.pi / self.ramp, 0.5 * self.height
+        c = cos(k * u)
+        return h * (1.0 - c), h * k * sin(k * u), h * k * k * c
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasuredProfile:
+    """Heights measured along a runway, joined by cubics with continuous slope.
+
+    Slopes at the points are central differences, zero at both ends, beyond which the
+    height is held.
+
+    Attributes:
+        distance: (n,) m, strictly ascending, n >= 2.
+        height: (n,) m.
+    """
+
+    distance: Sequence[float]
+    height: Sequence[float]
+    _slope: tuple[float, ...] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        d = tuple(float(value) for value in self.distance)
+        h = tuple(float(value) for value in self.height)
+        if len(d) != len(h) or len(d) < 2:
+            raise ValueError(
+                f"runway profile: {len(d)} distances and {len(h)} heights, expected "
+                "two or more of each, as many of one as of the other"
+            )
+        if not all(map(math.isfinite, d + h)):
+            raise ValueError("runway profile: a value is not a finite number")
+        for before, after in pairwise(d):
+            if not after > before:
+                raise ValueError(
+                    f"runway profile: distance {after} m follows {before} m, expected "
+                    "strictly ascending distances"
+                )
+        inner = [
+            (h[i + 1] - h[i - 1]) / (d[i + 1] - d[i - 1]) for i in range(1, len(d) - 1)
+        ]
+        object.__setattr__(self, "distance", d)
+        object.__setattr__(self, "height", h)
+        object.__setattr__(self, "_slope", (0.0, *inner, 0.0))
+
+    @classmethod
+    def from_file(cls, path: str | Path) -> "MeasuredProfile":
+        """Reads a CSV file of two columns, distance and height in m.
+
+        A first line that is not numbers is taken as the heading.
+
+        Raises:
+            ValueError: a line cannot be read; the message names file and line.
+        """
+        rows: list[tuple[float, float]] = []
+        with open(path, newline="", encoding="utf-8") as file:
+            for number, row in enumerate(csv.reader(file), start=1):
+                if not row or row[0].lstrip().startswith("#"):
+                    continue
+                try:
+                    rows.append((float(row[0]), float(row[1])))
+                except (ValueError, IndexError):
+                    if number == 1:
+                        continue
+                    raise ValueError(
+                        f"{path}, line {number}: found {','.join(row)!r}, expected "
+                        "distance and height in m"
+                    ) from None
+        if len(rows) < 2:
+            raise ValueError(f"{path}: {len(rows)} points, expected two or more")
+        return cls(distance=[r[0] for r in rows], height=[r[1] for r in rows])
+
+    @property
+    def max_curvature(self) -> float:
+        ends = [0.0]
+        for i, (a, b) in enumerate(pairwise(self.distance)):
+            # The curvature of a cubic is largest at one of its ends.
+            ends += [self._segment(i, 0.0)[2], self._segment(i, b - a)[2]]
+        return max(ends)
+
+    def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        if d <= self.distance[0]:
+            return self.height[0], 0.0, 0.0
+        if d >= self.distance[-1]:
+            return self.height[-1], 0.0, 0.0
+        i = bisect_right(self.distance, d) - 1
+        return self._segment(i, d - self.distance[i])
+
+    def _segment(self, i: int, u: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+        width = self.distance[i + 1] - self.distance[i]
+        m0, m1 = self._slope[i], self._slope[i + 1]
+        mean = (self.height[i + 1] - self.height[i]) / width
+        c2 = (3.0 * mean - 2.0 * m0 - m1) / width
+        c3 = (m0 + m1 - 2.0 * mean) / (width * width)
+        return (
+            self.height[i] + u * (m0 + u * (c2 + u * c3)),
+            m0 + u * (2.0 * c2 + 3.0 * u * c3),
+            2.0 * c2 + 6.0 * u * c3,
+        )

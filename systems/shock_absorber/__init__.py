@@ -1,0 +1,1 @@
+"""Shock absorbers: gas, oil, friction, stops."""

@@ -1,0 +1,157 @@
+"""A shock absorber, as a Drake system; the law is in `strut_law`."""
+
+from pydrake.autodiffutils import AutoDiffXd
+from pydrake.common.containers import namedview
+from pydrake.common.value import Value
+from pydrake.systems.framework import (
+    BasicVector_,
+    LeafSystem_,
+    NumericParameterIndex,
+    ValueProducer,
+)
+from pydrake.systems.scalar_conversion import TemplateSystem
+
+from systems.shock_absorber.strut_law import (
+    ShockAbsorberParameters,
+    ShockAbsorberTunables,
+    StrutLaw,
+)
+
+StrutState = namedview("StrutState", ["stroke", "rate"])
+StrutComponents = namedview("StrutComponents", ["gas", "damping", "friction", "stops"])
+
+
+@TemplateSystem.define("ShockAbsorber_", T_list=(float, AutoDiffXd))
+def ShockAbsorber_(T):
+    class Impl(LeafSystem_[T]):
+        """A shock absorber: `ShockAbsorber(parameters)`.
+
+        | port | size | unit | frame and sign |
+        |---|---|---|---|
+        | in `strut_state` | 2 | m, m/s | stroke, rate; positive in compression |
+        | in `side_load` (optional) | 1 | N | load across the strut at the axle |
+        | out `force` | 1 | N | along the strut, positive apart |
+        | out `energy` | 1 | J | stored, zero at zero stroke |
+        | out `dissipated_power` | 1 | W | >= 0 |
+        | out `components` | 4 | N | gas, damping, friction, stops, positive apart |
+        | out `gas_pressure` (where the area is given) | 1 | Pa | absolute |
+
+        No state. Numeric parameters: `ShockAbsorberTunables`; `set_tunables`. A side
+        load that is not connected is zero.
+        """
+
+        def _construct(self, parameters: ShockAbsorberParameters, converter=None):
+            LeafSystem_[T].__init__(self, converter=converter)
+            self._parameters = parameters
+            self._law = StrutLaw(parameters)
+            self._tunables = NumericParameterIndex(
+                self.DeclareNumericParameter(BasicVector_[T](parameters.tunables))
+            )
+            self._state = self.DeclareVectorInputPort("strut_state", 2)
+            self._side_load = self.DeclareVectorInputPort("side_load", 1)
+            parameter = self.numeric_parameter_ticket(self._tunables)
+            state = {self._state.ticket(), parameter}
+            everything = {*state, self._side_load.ticket()}
+            # The law is evaluated once for force, components and power.
+            self._forces = self.DeclareCacheEntry(
+                "law",
+                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
+                everything,
+            )
+            law = {self._forces.ticket()}
+            for name, size, calc, tickets in (
+                ("force", 1, self._calc_force, law),
+                ("energy", 1, self._calc_energy, state),
+                ("dissipated_power", 1, self._calc_dissipated_power, law),
+                ("components", 4, self._calc_components, law),
+            ):
+                self.DeclareVectorOutputPort(
+                    name, size, calc, prerequisites_of_calc=tickets
+                )
+            if parameters.gas.area is not None:
+                self.DeclareVectorOutputPort(
+                    "gas_pressure",
+                    1,
+                    self._calc_gas_pressure,
+                    prerequisites_of_calc=state,
+                )
+
+        def _construct_copy(self, other, converter=None):
+            Impl._construct(self, other._parameters, converter=converter)
+
+        @property
+        def parameters(self) -> ShockAbsorberParameters:
+            return self._parameters
+
+        def set_tunables(
+            self,
+            context,
+            *,
+            precharge=None,
+            gas_length=None,
+            exponent=None,
+            compression_damping=None,
+            rebound_damping=None,
+            seal_friction=None,
+            bearing_friction=None,
+        ) -> None:
+            """Sets numeric parameters in a context of this system; others stay.
+
+            Raises:
+                ValueError: a value is out of its range in ShockAbsorberParameters.
+            """
+            given = {
+                "precharge": precharge,
+                "gas_length": gas_length,
+                "exponent": exponent,
+                "compression_damping": compression_damping,
+                "rebound_damping": rebound_damping,
+                "seal_friction": seal_friction,
+                "bearing_friction": bearing_friction,
+            }
+            vector = context.get_mutable_numeric_parameter(self._tunables)
+            values = ShockAbsorberTunables(vector.CopyToVector())
+            for name, value in given.items():
+                if value is not None:
+                    setattr(values, name, value)
+            self._parameters.with_tunables(values)
+            vector.SetFromVector(values[:])
+
+        def _inputs(self, context):
+            """stroke, rate, side load, tunables."""
+            s, rate = self._state.Eval(context).tolist()
+            p = context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
+            side_load = 0.0
+            if p[6] > 0.0 and self._side_load.HasValue(context):
+                side_load = self._side_load.Eval(context).tolist()[0]
+            return s, rate, side_load, p
+
+        def _calc_law(self, context, value):
+            """Rate, and the parts of the force."""
+            inputs = self._inputs(context)
+            value.set_value((inputs[1], self._law.forces(*inputs)))
+
+        def _calc_force(self, context, output):
+            output.SetAtIndex(0, self._forces.Eval(context)[1].total)
+
+        def _calc_energy(self, context, output):
+            s, _, _, p = self._inputs(context)
+            output.SetAtIndex(0, self._law.energy(s, p))
+
+        def _calc_dissipated_power(self, context, output):
+            rate, forces = self._forces.Eval(context)
+            output.SetAtIndex(0, forces.dissipating * rate)
+
+        def _calc_components(self, context, output):
+            gas, damping, friction, elastic, damper = self._forces.Eval(context)[1]
+            output.SetFromVector([gas, damping, friction, elastic + damper])
+
+        def _calc_gas_pressure(self, context, output):
+            s, _, _, p = self._inputs(context)
+            area = self._parameters.gas.area
+            output.SetAtIndex(0, self._law.gas_force(s, p) / area)
+
+    return Impl
+
+
+ShockAbsorber = ShockAbsorber_[None]

@@ -1,0 +1,1 @@
+"""Vectors, tables, checks and compilation: the vocabulary of the laws."""
