@@ -171,7 +171,7 @@ def _add_brakes(
 def _connect_gear(
     builder: DiagramBuilder, gear: LandingGear, systems: GearSystems
 ) -> None:
-    kinematics, forces = systems.gear.wheel_kinematics, systems.gear.gear_forces
+    kinematics, forces = systems.wheel_kinematics, systems.gear_forces
     name, absorber = gear.name, systems.shock_absorbers[gear.name]
     for wheel in gear.wheel_names:
         tire = systems.tires[wheel]

@@ -49,7 +49,7 @@ def _gear_systems(gear):
     plant.Finalize()
     systems = AddGearSystems(builder, plant, [gear], bodies)
     builder.Connect(
-        systems.gear.gear_forces.GetOutputPort("spatial_forces"),
+        systems.gear_forces.GetOutputPort("spatial_forces"),
         plant.GetInputPort("applied_spatial_force"),
     )
     diagram = builder.Build()
@@ -170,7 +170,7 @@ def test_lever_force_is_that_of_a_spring_between_two_points():
 def test_ports_of_a_levered_gear_follow_its_geometry():
     gear = levered_main()
     _, _, bodies, systems, root = _gear_systems(gear)
-    plant = systems.gear.wheel_kinematics
+    plant = systems.wheel_kinematics
     plant_context = plant.GetMyContextFromRoot(root)
 
     def port(name):
