@@ -7,15 +7,31 @@ from drake_landing.aircraft.reference_axis import ATTACHMENTS
 from drake_landing.gears.data import TelescopicGear
 
 
-def landing_gears() -> tuple[TelescopicGear, TelescopicGear, TelescopicGear]:
-    """Nose, port main and starboard main gear."""
+def landing_gears(
+    paper: bool = False,
+) -> tuple[TelescopicGear, TelescopicGear, TelescopicGear]:
+    """Nose, port main and starboard main gear.
+
+    Args:
+        paper: with the simpler laws of the paper's studies, `d150-paper` in a case.
+    """
     data = facts("gears")
-    main = data["main"]
-    return (
-        _gear(data["nose"]),
-        _gear(_port(main)),
-        _gear(main),
-    )
+    nose, main = data["nose"], data["main"]
+    if paper:
+        simpler = data.get("paper", {})
+        nose, main = (
+            _with(gear, simpler.get(name, {}))
+            for name, gear in (("nose", nose), ("main", main))
+        )
+    return (_gear(nose), _gear(_port(main)), _gear(main))
+
+
+def _with(gear: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    """The gear with other values; those of a part are changed one by one."""
+    return gear | {
+        name: (gear[name] | value) if isinstance(gear.get(name), dict) else value
+        for name, value in changes.items()
+    }
 
 
 def _gear(data: dict[str, Any]) -> TelescopicGear:

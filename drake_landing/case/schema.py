@@ -41,7 +41,7 @@ _SELECTION = (
 
 # The name of a known set, or a list; tags are in parentheses, see `reading`.
 Gears = Annotated[
-    Annotated[Literal["d150"], Tag("(name)")]
+    Annotated[Literal["d150", "d150-paper"], Tag("(name)")]
     | Annotated[tuple[AnyGear, ...], Tag("(list)")],
     Discriminator(lambda value: "(name)" if isinstance(value, str) else "(list)"),
 ]
@@ -294,7 +294,8 @@ class Case(Section):
     airframe: Airframe
     gears: Gears = Field(
         default="d150",
-        description="list of landing gears, or d150: those of the reference aircraft",
+        description="list of landing gears, or d150: those of the reference aircraft; "
+        "d150-paper: the same with the simpler laws of the paper's studies",
     )
     scenario: Scenario
     simulation: Simulation = Simulation()
@@ -315,7 +316,7 @@ class Case(Section):
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:
-        if self.gears == "d150":
+        if isinstance(self.gears, str):
             if not self.airframe.model:
                 raise ValueError(
                     "gears: a deck of your own needs its list of gears; d150 belongs "

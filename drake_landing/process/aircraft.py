@@ -30,7 +30,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             deck, read = _matrices_deck(airframe, airframe.matrices, out)
         if deck is None or not deck.is_file():
             raise InputError(f"airframe.deck: {_not_a_file(deck)}")
-        assert case.gears != "d150"  # the case sees to it
+        assert not isinstance(case.gears, str)  # the case sees to it
         return Aircraft(
             name=deck.stem,
             topology=airframe.topology or "",
@@ -42,18 +42,23 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             scenario=_with_lift_nodes(case.scenario),
             interface=airframe.interface,
         )
-    from drake_landing.aircraft import write_model
+    from drake_landing.aircraft import landing_gears, write_model
     from drake_landing.aircraft.reference_axis import reference_nodes
 
     out.mkdir(parents=True, exist_ok=True)
     with _as_field("airframe.topology", "topology: "):
         model = write_model(airframe.model, out / "airframe.bdf", airframe.topology)
+    gears = model.gears
+    if case.gears == "d150-paper":
+        gears = landing_gears(paper=True)
+    elif not isinstance(case.gears, str):
+        gears = tuple(case.gears)
     wing = [reference_nodes()[name].ids for name in ("wing_left", "wing_right")]
     return Aircraft(
         name=model.name,
         topology=model.topology,
         deck=out / "airframe.bdf",
-        gears=model.gears if case.gears == "d150" else tuple(case.gears),
+        gears=gears,
         monitoring={**model.monitoring, **airframe.monitoring},
         scenario=_with_lift_nodes(case.scenario, tuple(sorted({*wing[0], *wing[1]}))),
         interface=tuple(sorted({*model.interface, *airframe.interface})),

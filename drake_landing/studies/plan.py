@@ -79,6 +79,7 @@ class Plan:
                     "topology": topology,
                     "select": f"below {self.candidates:g} Hz",
                 },
+                "gears": "d150-paper",
                 "scenario": self.scenario,
                 "simulation": self.simulation,
                 "transient": self.transient,
