@@ -17,9 +17,9 @@ import numpy.typing as npt
 import pandas as pd
 
 from benchmarks.page import DOCS, markdown, put
-from drake_landing.aircraft import AircraftModel, build
-from drake_landing.aircraft.facts import facts
-from drake_landing.aircraft.masses import gear_mass_centre
+from drake_landing.reference.d150 import AircraftModel, build
+from drake_landing.reference.d150.facts import facts
+from drake_landing.reference.d150.masses import gear_mass_centre
 from fem.deck.reader import read_deck
 from fem.elements.quality import quality_table
 from fem.model.structure import Structure

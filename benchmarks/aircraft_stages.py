@@ -22,8 +22,8 @@ import pandas as pd
 
 from benchmarks.machine import description, load, peak_memory
 from benchmarks.page import DOCS, markdown, put
-from drake_landing.aircraft import build, interface_nodes, write_model
 from drake_landing.reduced.make import reduce_structure
+from drake_landing.reference.d150 import build, interface_nodes, write_model
 from fem.algebra.linear_solver import factorize
 from fem.algebra.modes import normal_modes
 from fem.deck.reader import read_deck

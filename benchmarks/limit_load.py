@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 import pandas as pd
 
 from benchmarks.page import DOCS, markdown, put
-from drake_landing.aircraft import write_model
-from drake_landing.aircraft.limit_load import (
+from drake_landing.reference.d150 import write_model
+from drake_landing.reference.d150.limit_load import (
     LOAD_FACTOR,
     SOURCE_ROOT_MOMENT,
     LimitLoad,

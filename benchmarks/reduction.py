@@ -18,16 +18,16 @@ import numpy as np
 import pandas as pd
 
 from benchmarks.page import DOCS, markdown, put
-from drake_landing.aircraft import interface_nodes, write_model
 from drake_landing.reduced.checks import (
     ReductionChecks,
     check_reduction,
     full_modes,
     reduced_modes,
 )
-from drake_landing.reduced.global_modes import named_modes
 from drake_landing.reduced.make import reduce_structure
 from drake_landing.reduced.report import PAIRED
+from drake_landing.reference.d150 import interface_nodes, write_model
+from drake_landing.reference.global_modes import named_modes
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 

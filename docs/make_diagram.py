@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from drake_landing.aircraft.generator import build
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.wiring import wiring_svg
+from drake_landing.reference.d150.generator import build
 from systems.airframe.modal_body import ModalBody
 
 

@@ -134,19 +134,19 @@ def model(
     ] = None,
 ) -> None:
     """Writes a reference aircraft, or one from a CPACS file, as a Nastran deck."""
-    from drake_landing.process.aircraft import write_model_deck
+    from drake_landing.parametric import parametric_aircraft
     from fem.errors import InputError
 
     if level == "from-cpacs":
         if source is None:
             raise InputError("model from-cpacs: give a CPACS file")
-        from drake_landing.aircraft.cpacs import write_cpacs_model
+        from drake_landing.reference.d150.cpacs import write_cpacs_model
 
         print(write_cpacs_model(source, cpacs_level, out, topology).story(out))
         return
     if source is not None:
         raise InputError(f"model {level}: found {source}; only from-cpacs takes a file")
-    print(write_model_deck(level, out, topology))
+    print(parametric_aircraft(level).write(out, topology).story)
 
 
 @app.command()
@@ -172,8 +172,8 @@ def study(
     """The paper's studies: numbers of modes, gear topologies, the full aircraft."""
     from drake_landing.output import claim
     from drake_landing.progress import reporter
-    from drake_landing.studies import PLANS, run_study
-    from drake_landing.studies.findings import findings
+    from drake_landing.reference.studies import PLANS, run_study
+    from drake_landing.reference.studies.findings import findings
     from fem.errors import InputError, nearest
 
     if name not in PLANS:

@@ -1,14 +1,22 @@
 """What a case says of the aircraft, complete."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.gears.data import LandingGear
+from drake_landing.parametric import ParametricAircraft
+from fem.arrays import Float64
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
+
+if TYPE_CHECKING:
+    from drake_landing.parts.places import Places
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,6 +34,7 @@ class Aircraft:
         units: of the deck; what `structure` gives is SI.
         notices: what the user should know.
         read: how the file becomes a deck; matrices come with all their digits.
+        parametric: who wrote the deck, where it is not the user's own.
     """
 
     name: str
@@ -38,6 +47,7 @@ class Aircraft:
     units: str = "SI"
     notices: tuple[str, ...] = ()
     read: Callable[[Path], Deck] = read_deck
+    parametric: ParametricAircraft | None = None
 
     def structure(self) -> Structure:
         """The airframe's finite-element model.
@@ -46,6 +56,17 @@ class Aircraft:
             InputError: everything that is wrong with its deck.
         """
         return Structure.from_deck(self.read(self.deck))
+
+    @property
+    def steady_load(self) -> Callable[[Structure], Float64] | None:
+        """Loads of steady flight at 1 g from a structure, where they are known."""
+        return self.parametric.steady_load if self.parametric else None
+
+    def known_places(self, structure: Structure) -> Places | None:
+        """Where one looks at this aircraft, if its generator knows."""
+        if self.parametric is None or self.parametric.places is None:
+            return None
+        return self.parametric.places(structure)
 
     @property
     def attachment_nodes(self) -> tuple[int, ...]:

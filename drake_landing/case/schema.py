@@ -28,9 +28,10 @@ from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
 from drake_landing.case.section import Section, number
 from drake_landing.gears.data import AnyGear
+from drake_landing.parametric import registered
+from fem.errors import nearest
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
-Model = Literal["con", "pre", "full"]
 UnitSystem = Literal["SI", "mm-t-N", "in-lbf"]
 Basis = Literal["full-modes", "craig-bampton", "guyan"]
 _SELECTION = (
@@ -142,8 +143,11 @@ class Matrices(Section):
 class Airframe(Section):
     """The airframe's finite-element model and its modal body."""
 
-    model: Model | None = Field(
-        default=None, description="a built-in reference aircraft, instead of `deck`"
+    model: str | None = Field(
+        default=None,
+        description="a parametric aircraft, instead of `deck`: con, pre or full, the "
+        "reference aircraft, or one that another package registers",
+        json_schema_extra={"examples": list(registered())},
     )
     topology: str | None = Field(
         default=None,
@@ -212,6 +216,17 @@ class Airframe(Section):
         "their own",
     )
 
+    @field_validator("model", mode="after")
+    @classmethod
+    def _registered(cls, model: str | None) -> str | None:
+        if model is not None and model not in registered():
+            names = registered()
+            raise ValueError(
+                f"found '{model}', expected one of {', '.join(names)}"
+                + nearest(model, names)
+            )
+        return model
+
     @field_validator("deck", mode="after")
     @classmethod
     def _relative_to_case(cls, deck: Path | None, info: ValidationInfo) -> Path | None:
@@ -222,8 +237,9 @@ class Airframe(Section):
     def _one_source(self) -> Self:
         given = [x is not None for x in (self.model, self.deck, self.matrices)]
         if sum(given) != 1:
+            names = ", ".join(registered())
             raise ValueError(
-                "give one of `model` (con, pre, full), `deck` (a file) or `matrices`"
+                f"give one of `model` ({names}), `deck` (a file) or `matrices`"
             )
         if self.units != "SI" and self.model:
             raise ValueError(

@@ -8,7 +8,6 @@ import numpy.typing as npt
 from drake_landing.case import parts as settings
 from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam
 from drake_landing.parts.places import Panel, Places
-from drake_landing.parts.reference_places import reference_places
 from fem.errors import InputError
 from fem.model.structure import Structure
 
@@ -23,7 +22,7 @@ def places_of(
     parts: settings.Parts,
     R_AB: Float64,
     monitoring: Mapping[str, int],
-    model: str | None,
+    known: Places | None,
 ) -> Places:
     """The places of a case; those that it does not name are found.
 
@@ -32,14 +31,11 @@ def places_of(
         parts: of the case.
         R_AB: (3, 3) from the deck's axes.
         monitoring: points that stand for equipment where nothing else is known.
-        model: con, pre, full or None for a deck of the user's own.
+        known: of a parametric aircraft; None for a deck of the user's own.
 
     Raises:
         InputError: grids that do not exist.
     """
-    known = None
-    if model is not None:
-        known = reference_places(structure, model)
     beams = tuple(_beam(beam, R_AB) for beam in parts.beams)
     panels = tuple(
         Panel(name=p.name, grid=p.grid, beside=p.beside) for p in parts.panels

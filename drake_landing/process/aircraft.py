@@ -8,6 +8,8 @@ from pathlib import Path
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.case.schema import Airframe, Case, Matrices
+from drake_landing.gears.data import LandingGear
+from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
@@ -42,27 +44,27 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             scenario=_with_lift_nodes(case.scenario),
             interface=airframe.interface,
         )
-    from drake_landing.aircraft import landing_gears, write_model
-    from drake_landing.aircraft.reference_axis import reference_nodes
-
+    model = parametric_aircraft(airframe.model)
     out.mkdir(parents=True, exist_ok=True)
     with _as_field("airframe.topology", "topology: "):
-        model = write_model(airframe.model, out / "airframe.bdf", airframe.topology)
-    gears = model.gears
-    if case.gears == "d150-paper":
-        gears = landing_gears(paper=True)
-    elif not isinstance(case.gears, str):
-        gears = tuple(case.gears)
-    wing = [reference_nodes()[name].ids for name in ("wing_left", "wing_right")]
+        written = model.write(out / "airframe.bdf", airframe.topology)
     return Aircraft(
-        name=model.name,
-        topology=model.topology,
+        name=written.name,
+        topology=written.topology,
         deck=out / "airframe.bdf",
-        gears=gears,
-        monitoring={**model.monitoring, **airframe.monitoring},
-        scenario=_with_lift_nodes(case.scenario, tuple(sorted({*wing[0], *wing[1]}))),
-        interface=tuple(sorted({*model.interface, *airframe.interface})),
+        gears=_gears(case, written),
+        monitoring={**written.monitoring, **airframe.monitoring},
+        scenario=_with_lift_nodes(case.scenario, written.lift_nodes),
+        interface=tuple(sorted({*written.interface, *airframe.interface})),
+        parametric=model,
     )
+
+
+def _gears(case: Case, written: WrittenAircraft) -> tuple[LandingGear, ...]:
+    """The case's own gears, or a set that the aircraft has by name."""
+    if isinstance(case.gears, str):
+        return written.gear_sets.get(case.gears, written.gears)
+    return tuple(case.gears)
 
 
 def _read(path: Path, ignore: tuple[str, ...], units: str) -> Deck:
@@ -123,21 +125,3 @@ def _matrices_deck(
     write_grids_deck(deck, model)
     units = units_of(airframe.units)
     return deck, lambda path: in_si(deck_with_matrices(path, model), units)
-
-
-def write_model_deck(level: str, path: Path, topology: str | None = None) -> str:
-    """Writes a reference aircraft and says what was written.
-
-    Raises:
-        InputError: unknown level or topology, or the folder does not exist.
-    """
-    from drake_landing.aircraft import write_model
-
-    model = write_model(level, path, topology)
-    gears = sum(gear.mass for gear in model.gears)
-    points = ", ".join(f"{name} {grid}" for name, grid in model.monitoring.items())
-    return (
-        f"{path}: {model.name}, {len(model.grid_id)} grids, topology {model.topology}; "
-        f"airframe {model.masses['mass'].sum():,.0f} kg, gears {gears:,.0f} kg\n"
-        f"monitoring points: {points}"
-    )

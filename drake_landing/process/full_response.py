@@ -75,7 +75,7 @@ def full_response(
     stages.begin("static cases")
     gears = {g.name: list(g.attachments.values()) for g in aircraft.gears}
     instants = extreme_instants(landing, gears) if len(loads) > 1 else {}
-    steady, slices = _static(case, structure, landing, instants, cache)
+    steady, slices = _static(aircraft, structure, landing, instants, cache)
 
     stages.begin("maps of stresses and section loads")
     watch = _watch(case, aircraft, airframe, landing, steady)
@@ -116,7 +116,7 @@ def full_response(
 
 
 def _static(
-    case: Case,
+    aircraft: Aircraft,
     structure: Structure,
     loads: AttachmentLoads,
     instants: dict[int, str],
@@ -124,10 +124,8 @@ def _static(
 ) -> tuple[Float64 | None, Balanced | None]:
     """Displacements of steady flight where it is known, and the slices."""
     columns = []
-    if case.airframe.model is not None:
-        from drake_landing.parts.reference_places import steady_load
-
-        columns.append(steady_load(structure))
+    if aircraft.steady_load is not None:
+        columns.append(aircraft.steady_load(structure))
     flights = len(columns)
     if instants:
         columns.append(slice_loads(structure, loads, instants))
@@ -161,7 +159,7 @@ def _watch(
             case.parts,
             rotation_AB(case.airframe.axes),
             aircraft.monitoring,
-            case.airframe.model,
+            aircraft.known_places(structure),
         ),
         inventory(structure, case.parts.allowables),
         list(aircraft.monitoring.values()),

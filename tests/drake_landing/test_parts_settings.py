@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from drake_landing.aircraft import write_model
 from drake_landing.case.parts import Parts
 from drake_landing.case.reading import parse_case
 from drake_landing.parts.case_places import places_of
 from drake_landing.parts.inventory import inventory
-from drake_landing.parts.reference_places import steady_load
 from drake_landing.parts.slices import balanced
+from drake_landing.reference.d150 import write_model
+from drake_landing.reference.places import reference_places, steady_load
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.model.structure import Structure
@@ -92,7 +92,7 @@ def test_wrong_places_are_refused(old: str, new: str, said: str) -> None:
 def test_steady_flight_of_the_reference_aircraft_is_balanced(tmp_path: Path) -> None:
     write_model("con", tmp_path / "con.bdf")
     model = Structure.from_deck(read_deck(tmp_path / "con.bdf"))
-    places = places_of(model, Parts(), np.eye(3), {}, "con")
+    places = places_of(model, Parts(), np.eye(3), {}, reference_places(model, "con"))
     assert [b.name for b in places.beams] == [
         *("right wing", "left wing", "forward fuselage", "rear fuselage"),
     ]

@@ -133,7 +133,7 @@ def test_rows_in_any_order_of_the_table(tmp_path: Path) -> None:
 
 def test_grids_that_follow_come_back(tmp_path: Path) -> None:
     """The conceptual aircraft's gears hang on rigid elements."""
-    from drake_landing.aircraft import write_model
+    from drake_landing.reference.d150 import write_model
 
     write_model("con", tmp_path / "con.bdf")
     out = tmp_path / "out"

@@ -6,13 +6,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.aircraft import write_model
 from drake_landing.cache import Cache
 from drake_landing.cli import app, guarded
 from drake_landing.reduced import stored
 from drake_landing.reduced.checks import check_reduction, reduced_modes
 from drake_landing.reduced.interface import case_sets, interface_grids
 from drake_landing.reduced.make import METHODS, Method, reduce_structure
+from drake_landing.reference.d150 import write_model
 from fem.algebra.modes import normal_modes
 from fem.deck.reader import read_deck
 from fem.errors import InputError

@@ -9,8 +9,8 @@ import matplotlib.image
 import numpy as np
 import pytest
 
-from drake_landing.aircraft import write_model
 from drake_landing.cli import app, guarded
+from drake_landing.reference.d150 import write_model
 from drake_landing.show.comments import component_names, read_names
 from drake_landing.show.mesh import RIGID, drawn_mesh
 from drake_landing.show.modes import shown_modes

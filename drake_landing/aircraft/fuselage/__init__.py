@@ -1,5 +1,0 @@
-"""The shell fuselage of the FULL aircraft, one component per module."""
-
-from drake_landing.aircraft.fuselage.shell import FuselageShell, add_fuselage_shell
-
-__all__ = ["FuselageShell", "add_fuselage_shell"]
