@@ -195,7 +195,7 @@ def mass_properties(structure: Structure) -> tuple[float, Float64, Float64]:
     """
     rigid = structure.rigid_body
     mass, offset, inertia = rigid_mass_properties(rigid.T @ (structure.mass @ rigid))
-    return mass, structure.weight.center + offset, inertia
+    return mass, structure.rigid_mass.center + offset, inertia
 
 
 def modal_damping(structure: Structure, basis: Basis) -> Float64:
@@ -228,7 +228,7 @@ def _loose(structure: Structure, nodes: Iterable[int]) -> list[int]:
 def _rigid(structure: Structure, ids: Int64) -> Float64:
     """(k, 6, 6) motion of grids by unit rigid motions, basic axes."""
     points = structure.points
-    arm = points.xyz[points.rows(ids)] - structure.weight.center
+    arm = points.xyz[points.rows(ids)] - structure.rigid_mass.center
     x, y, z = arm.T
     zero = np.zeros_like(x)
     motion = np.tile(np.eye(6), (len(ids), 1, 1))

@@ -72,7 +72,7 @@ def _held(structure: Structure) -> str:
 
 
 def _mass_problems(structure: Structure) -> list[str]:
-    total = structure.weight.total
+    total = structure.rigid_mass.total
     if not total > 0.0:
         return [
             f"the airframe has a mass of {total:g}, expected more than 0: densities "

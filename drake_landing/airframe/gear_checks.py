@@ -54,7 +54,7 @@ def check_gears(
     problems = gear_problems(gears, places)
     if problems:
         raise InputError(problems)
-    weight = structure.weight
+    weight = structure.rigid_mass
     return gear_remarks(gears, weight.total, R_AB @ weight.center)
 
 

@@ -233,8 +233,8 @@ def expected_pulses(
             node: R_AB @ points.xyz[points.rows(node)]
             for node in aircraft.attachment_nodes
         },
-        mass=structure.weight.total,
-        p_AG=R_AB @ structure.weight.center,
+        mass=structure.rigid_mass.total,
+        p_AG=R_AB @ structure.rigid_mass.center,
         R_AB=R_AB,
     )
 

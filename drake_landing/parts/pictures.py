@@ -250,7 +250,7 @@ def _rigid_part(structure: Structure, u_f: Float64, p: Float64) -> Float64:
     rigid = structure.rigid_body
     heavy = structure.mass @ rigid
     share = np.linalg.solve(rigid.T @ heavy, heavy.T @ u_f)
-    arm = p - structure.weight.center
+    arm = p - structure.rigid_mass.center
     return share[:3] + np.cross(share[3:], arm)
 
 

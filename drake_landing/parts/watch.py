@@ -248,7 +248,7 @@ def _everything(structure: Structure) -> Beam:
     """The whole airframe as one part, about its centre of gravity."""
     p = structure.points.xyz
     station = float(p[:, 0].min()) - 1.0
-    centre = structure.weight.center.copy()
+    centre = structure.rigid_mass.center.copy()
     return Beam(
         name="airframe",
         outward="aft",

@@ -136,12 +136,12 @@ def _line(head: str, text: str) -> str:
 def _airframe(
     case: Case, aircraft: Aircraft, structure: Structure, cost: Cost | None
 ) -> Iterator[str]:
-    x, y, z = structure.weight.center
+    x, y, z = structure.rigid_mass.center
     name = aircraft.deck.name if case.airframe.deck else aircraft.name
     yield _line(
         "airframe",
         f"{name}: {len(structure.points.grid_id)} grids, {structure.size} free "
-        f"freedoms, {structure.weight.total:,.1f} kg, centre of gravity at "
+        f"freedoms, {structure.rigid_mass.total:,.1f} kg, centre of gravity at "
         f"{x:z.3f}, {y:z.3f}, {z:z.3f} m",
     )
     yield _line(
@@ -177,7 +177,7 @@ def _gears(aircraft: Aircraft) -> Iterator[str]:
 
 def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[str]:
     s = aircraft.scenario
-    mass = structure.weight.total + sum(gear.mass for gear in aircraft.gears)
+    mass = structure.rigid_mass.total + sum(gear.mass for gear in aircraft.gears)
     energy = 0.5 * mass * s.sink_rate**2
     yield _line("scenario", f"{s.story}; {s.lift_story}")
     yield _line("", f"{mass:,.1f} kg in all, sink energy {energy / 1e3:.1f} kJ")

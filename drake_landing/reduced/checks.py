@@ -105,7 +105,7 @@ def reduced_modes(model: ReducedModel, highest_hz: float) -> Modes:
 
 
 def _mass_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
-    centre = structure.weight.center
+    centre = structure.rigid_mass.center
     full = structure.rigid_body
     whole = rigid_mass_properties(full.T @ (structure.mass @ full))
     own = model.rigid_body(centre)
@@ -124,7 +124,7 @@ def _mass_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
 
 
 def _rigid_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
-    motion = model.rigid_body(structure.weight.center)
+    motion = model.rigid_body(structure.rigid_mass.center)
     force = model.stiffness @ motion
     rows = model.labels[:, 1]
     largest = np.abs(np.diag(model.stiffness))

@@ -128,7 +128,10 @@ class Structure:
 
     @cached_property
     def weight(self) -> Weight:
-        """Mass, centre of gravity and inertia (PARAM GRDPNT: reference grid)."""
+        """Nastran's weight table (PARAM GRDPNT: reference grid), without PARAM WTMASS.
+
+        In the units that the deck gives masses or weights in; see `rigid_mass`.
+        """
         grid = int(self.deck.number("GRDPNT"))
         reference = self.points.xyz[self.points.rows(grid)] if grid > 0 else np.zeros(3)
         return weigh(
@@ -137,6 +140,15 @@ class Structure:
             reference=reference,
             wtmass=self.deck.number("WTMASS") or 1.0,  # 0 leaves no mass to divide
         )
+
+    @cached_property
+    def rigid_mass(self) -> Weight:
+        """Mass, centre of gravity and inertia that the dynamics have.
+
+        As `weight`, but about the origin and with PARAM WTMASS in it: what a deck that
+        gives weights moves like.
+        """
+        return weigh(self.points, self.matrices.mass)
 
     # -- constraints ----------------------------------------------------------------
 
@@ -228,7 +240,7 @@ class Structure:
 
         Motions that constraints prevent cost energy; `normal_modes` sorts them out.
         """
-        return rigid_modes(self.points, self.weight.center)[self.elimination.f]
+        return rigid_modes(self.points, self.rigid_mass.center)[self.elimination.f]
 
     # -- between the sets -------------------------------------------------------------
 
@@ -379,6 +391,7 @@ _OF_MODEL = frozenset(
         "damping_g",
         "generalised_dof",
         "matrices",
+        "rigid_mass",
         "support_dof",
         "weight",
     }
