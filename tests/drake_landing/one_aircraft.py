@@ -1,4 +1,4 @@
-"""One small aircraft, written in any units and any frame, with or without PARAM,WTMASS."""
+"""One small aircraft in any units and any frame, with masses or with weights."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -65,7 +65,7 @@ SLINCHES = Written(units="in-lbf", length=INCH, mass=POUND * GRAVITY / INCH)
 def deck_text(how: Written) -> str:
     """The aircraft as bulk data."""
     to, kg = 1.0 / how.length, 1.0 / how.mass
-    pascal = 1.0 / (how.mass * how.wtmass) * how.length  # kg/(m s²)
+    pascal = how.length * how.wtmass / how.mass  # of a kg/(m s²)
     R = how.R_BA
 
     def card(*fields: object) -> str:
@@ -135,10 +135,10 @@ airframe:
   deck: aircraft.bdf
   units: {how.units}
   axes: {{forward: {how.forward}, up: z}}
-  select: count 8
+  select: count 5
   monitoring: {{nose: 1, tip: 12}}
 scenario: {{sink_rate: 1.5, forward_speed: 30, pitch: 1, roll: 1}}
-simulation: {{duration: 0.3}}
+simulation: {{duration: 0.08}}
 transient: {{step: 5.0e-4}}
 gears:{gear("nose", 2, 1.6, 0.0, 400.0)}{gear("right", 11, 3.95, 1.25, 900.0)}\
 {gear("left", 21, 3.95, -1.25, 900.0)}
