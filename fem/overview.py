@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-from fem.deck.case_control import QUANTITIES
+from fem.deck.case_commands import QUANTITIES
 from fem.deck.catalogue import PASSED_OVER
 from fem.deck.params import DEFAULTS
 from fem.deck.reader import SUPPORTED

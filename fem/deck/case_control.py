@@ -1,13 +1,16 @@
 """Case control: what each subcase selects and asks for, as plain dataclasses."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import Literal, NamedTuple, TypeAlias
 
+import numpy as np
+
+from fem.arrays import Int64
+from fem.deck import case_commands as commands
+from fem.deck.case_sets import Selection, SetReader, number
 from fem.deck.source import Line
-
-Selection: TypeAlias = Literal["ALL", "NONE"] | frozenset[int]
+from fem.deck.values import Malformed, real
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -15,6 +18,11 @@ class Subcase:
     """One subcase; set ids are 0 and names '' where the deck selects nothing.
 
     Attributes:
+        temperature: set of temperatures that load (TEMPERATURE(LOAD)).
+        initial_temperature: set of TEMPERATURE(INITIAL).
+        combination: subcases and factors that SUBCOM or SYMCOM adds up.
+        not_carried_out: commands that would change what a solution of the deck's own
+            finds and that nothing here carries out, each with its place.
         outputs: quantity (DISPLACEMENT, VELOCITY, ACCELERATION, SPCFORCES, MPCFORCES,
             OLOAD, FORCE, STRESS, STRAIN, GPFORCE, ESE, EKE, EDE, GPKE) to the ids that
             are asked for.
@@ -38,6 +46,9 @@ class Subcase:
     sdamping: int = 0
     nsm: int = 0
     statsub: int = 0
+    deform: int = 0
+    temperature: int = 0
+    initial_temperature: int = 0
     superelement: int = 0
     resvec: str = ""
     k2gg: str = ""
@@ -47,81 +58,12 @@ class Subcase:
     m2pp: str = ""
     b2pp: str = ""
     p2g: str = ""
+    combination: tuple[tuple[int, float], ...] = ()
+    not_carried_out: tuple[str, ...] = ()
     outputs: dict[str, Selection] = field(default_factory=dict)
     options: dict[str, tuple[str, ...]] = field(default_factory=dict)
 
 
-QUANTITIES = {
-    "DISP": "DISPLACEMENT",
-    "VECT": "DISPLACEMENT",
-    "VELO": "VELOCITY",
-    "ACCE": "ACCELERATION",
-    "SPCF": "SPCFORCES",
-    "MPCF": "MPCFORCES",
-    "OLOA": "OLOAD",
-    "FORC": "FORCE",
-    "ELFO": "FORCE",
-    "STRE": "STRESS",
-    "ELST": "STRESS",
-    "STRA": "STRAIN",
-    "GPFO": "GPFORCE",
-    "ESE": "ESE",
-    "EKE": "EKE",
-    "EDE": "EDE",
-    "GPKE": "GPKE",
-}
-_NUMBERS = {
-    "SPC": "spc",
-    "MPC": "mpc",
-    "LOAD": "load",
-    "DLOAD": "dload",
-    "LOADSET": "loadset",
-    "IC": "ic",
-    "TSTEP": "tstep",
-    "METHOD": "method",
-    "SUPORT1": "suport1",
-    "SDAMPING": "sdamping",
-    "SDAMP": "sdamping",
-    "NSM": "nsm",
-    "STATSUB": "statsub",
-    "SUPER": "superelement",
-}
-_NAMES = {
-    name.upper(): name
-    for name in [
-        "analysis",
-        "k2gg",
-        "m2gg",
-        "b2gg",
-        "k2pp",
-        "m2pp",
-        "b2pp",
-        "p2g",
-        "resvec",
-    ]
-}
-_TITLES = {"TITL": "title", "SUBT": "subtitle", "LABE": "label"}
-# Commands that would change the answer and that nothing here carries out.
-_REFUSED = frozenset(
-    """
-    AEROF APRES AUXCASE BC BOLTLD CMETHOD DEFORM DESGLB DESSUB DIVERG DYNRED FMETHOD
-    GUST MFLUID MODSEL NLPARM NLSTEP NONLINEAR RGYRO RSDAMP SUBCOM SUBSEQ SYM SYMCOM
-    REPCASE TEMPERATURE TEMP TFL TRIM TSTRU TSTEPNL A2GG
-    """.split()
-)
-_DIRECT = {
-    "K2PP": "K2GG adds a symmetric matrix",
-    "M2PP": "M2GG adds a symmetric matrix",
-    "B2PP": "B2GG adds a symmetric matrix",
-    "P2G": "loads are given by load cards",
-    "STATSUB": "there is no stiffness from a preload",
-    "SUPORT1": "SUPORT holds in all subcases",
-}
-# (Initial temperatures alone change nothing: materials are constant.)
-_WHY = {
-    "TEMP": ": no thermal loads, no materials that depend on temperature; "
-    "--ignore CASE goes on without such commands"
-}
 _COMMAND = re.compile(r"\s*([A-Z0-9]+)\s*(\([^)]*\))?\s*[=,]?\s*(.*)$", re.S)
 
 
@@ -135,117 +77,271 @@ class CaseControl:
     notices: list[str] = field(default_factory=list)
 
 
-def read_case_control(lines: Iterable[Line], *, refuse: bool = True) -> CaseControl:
+@dataclass(frozen=True)
+class _Command:
+    """A command as it stands: NAME(OPTIONS) = VALUE, and the whole statement."""
+
+    name: str
+    options: tuple[str, ...]
+    value: str
+    statement: str
+    line: Line
+
+    @property
+    def place(self) -> str:
+        return f"{self.line.file}:{self.line.number}"
+
+
+def read_case_control(
+    lines: Iterable[Line],
+    *,
+    refuse: bool = True,
+    known: Callable[[], Int64] = lambda: np.zeros(0, np.int64),
+) -> CaseControl:
     """Subcases of case control lines.
 
     Args:
         lines: between CEND and BEGIN BULK.
-        refuse: report commands that nothing here carries out as problems.
+        refuse: report commands that nothing here carries out; else they are notices.
+        known: ids that points and elements of the deck may have, ascending; asked for
+            where a SET has a range without end.
     """
-    result = CaseControl(problems=[], notices=[])
-    sets: dict[int, Selection] = {}
-    default, subcases = Subcase(), []
-    current, ignored = default, []
-    for statement, line in _statements(lines):
-        place = f"{line.file}:{line.number}"
-        upper = statement.upper()
-        match = _COMMAND.match(upper)
-        if match is None:
-            result.problems.append(f"{place}: cannot be read: {statement.strip()}")
-            continue
-        name, options, value = match.group(1), match.group(2), match.group(3).strip()
-        try:
-            if name == "OUTPUT":
-                break  # plotter and curve requests follow
-            if name == "PARAM":
-                result.params.append(_parameter(upper, line))
-            elif name == "SET":
-                _define_set(upper, sets)
-            elif name == "SUBCASE":
-                current = _new_subcase(default, value, subcases)
-                subcases.append(current)
-                continue
-            else:
-                words = _Command(name, options, value, statement)
-                found = _carry_out(words, current, sets, refuse=refuse)
-                current = found or current
-                if found is None:
-                    ignored.append(name)
-        except ValueError as error:
-            result.problems.append(f"{place}: {statement.strip()}: {error}")
-        if subcases:
-            subcases[-1] = current
+    return _Reader(refuse=refuse, known=known).read(lines)
+
+
+class _Reader:
+    """State while commands are read: the subcase that is open, sets, what is left."""
+
+    def __init__(self, *, refuse: bool, known: Callable[[], Int64]) -> None:
+        self.refuse = refuse
+        self.sets = SetReader(known)
+        self.result = CaseControl()
+        self.default = Subcase()
+        self.subcases: list[Subcase] = []
+        self.plotting = False
+        self.passed_over: dict[str, None] = {}
+        self.plotted: dict[str, None] = {}
+        self.unknown: dict[str, None] = {}
+
+    @property
+    def current(self) -> Subcase:
+        return self.subcases[-1] if self.subcases else self.default
+
+    def change(self, **values: object) -> None:
+        """Change the open subcase."""
+        changed = replace(self.current, **values)
+        if self.subcases:
+            self.subcases[-1] = changed
         else:
-            default = current
-    if ignored:
-        result.notices.append(
-            "case control commands without effect here: "
-            + ", ".join(sorted(set(ignored)))
+            self.default = changed
+
+    def read(self, lines: Iterable[Line]) -> CaseControl:
+        for statement, line in _statements(lines):
+            match = _COMMAND.match(statement.upper())
+            try:
+                if match is None:
+                    raise ValueError("cannot be read")
+                word, options, value = match.groups()
+                words = (w.strip() for w in (options or "()")[1:-1].split(","))
+                name = commands.canonical(word) or word
+                options = tuple(w for w in words if w)
+                found = _Command(name, options, value.strip(), statement, line)
+                self.take(found)
+            except (ValueError, Malformed) as error:
+                place = f"{line.file}:{line.number}"
+                self.result.problems.append(f"{place}: {statement.strip()}: {error}")
+        self.report()
+        self.result.subcases = tuple(self.subcases) or (self.default,)
+        return self.result
+
+    def report(self) -> None:
+        """One notice for each kind of what was passed over."""
+        for names, text in (
+            (self.passed_over, "case control commands without effect here"),
+            (self.plotted, "plot and curve requests after OUTPUT are passed over"),
+            (self.unknown, "case control commands that are not known, passed over"),
+        ):
+            if names:
+                self.result.notices.append(f"{text}: {', '.join(sorted(names))}")
+
+    def take(self, command: _Command) -> None:
+        """Carry a command out, or note why not.
+
+        Raises:
+            ValueError: its value cannot be read; it changes the model, and nothing
+                here does it.
+        """
+        name = command.name
+        if name in ("SUBCASE", "SUBCOM", "SYM", "SYMCOM", "REPCASE", "OUTPUT"):
+            self.plotting = False
+        if name == "OUTPUT":
+            # Alone, or for grid point stresses, other commands follow as before.
+            self.plotting = bool(command.options) and command.options[0] in _PLOTS
+        elif self.plotting:
+            self.plot(command)
+        elif (action := getattr(self, f"do_{name.lower()}", None)) is not None:
+            action(command)
+        elif name in commands.TITLES:
+            text = command.statement.split("=", 1)[-1].strip()
+            self.change(**{commands.TITLES[name]: text})
+        elif name in commands.MODEL_REFUSED and self.refuse and command.value:
+            raise ValueError(
+                f"{name} is not supported; {commands.MODEL_REFUSED[name]}; "
+                "--ignore CASE goes on without it"
+            )
+        elif name in commands.SOLUTION_REFUSED:
+            self.not_carried_out(command)
+        elif name in commands.NUMBERS:
+            self.number(command)
+        elif name in commands.NAMES:
+            self.change(**{commands.NAMES[name]: command.value})
+        elif name in commands.QUANTITIES:
+            self.request(command)
+        elif name in commands.KNOWN:
+            self.passed_over[name] = None
+        elif self.refuse and (near := commands.misspelt(name)):
+            raise ValueError(f"{name} is no case control command{near}")
+        else:
+            self.unknown[name] = None
+
+    def number(self, command: _Command) -> None:
+        """A selection by number; METHOD(FLUID) and its like are another model's."""
+        if "FLUID" in command.options:
+            self.passed_over[f"{command.name}(FLUID)"] = None
+            return
+        self.change(**{commands.NUMBERS[command.name]: number(command.value)})
+
+    def plot(self, command: _Command) -> None:
+        """A line of a plot section; a selection there would be lost.
+
+        Raises:
+            ValueError: it is one.
+        """
+        assigned = re.match(r"\s*\w+\s*(\([^)]*\))?\s*=", command.statement)
+        if command.name in commands.NUMBERS and assigned and self.refuse:
+            raise ValueError(
+                "stands among the plot requests after OUTPUT(PLOT or XYPLOT), where "
+                "Nastran reads no selections; expected it before"
+            )
+        word = re.split(r"[\s(=,]", command.statement.strip().upper())[0]
+        self.plotted[word] = None
+
+    def not_carried_out(self, command: _Command) -> None:
+        name, case = command.name, self.current
+        if not self.refuse or not command.value:
+            self.passed_over[name] = None
+            return
+        text = (
+            f"{command.place}: {command.statement.strip()}: {name} is not supported; "
+            f"{commands.SOLUTION_REFUSED[name]}; --ignore CASE goes on without it"
         )
-    result.subcases = tuple(subcases) or (default,)
-    return result
+        self.change(not_carried_out=(*case.not_carried_out, text))
+        if name in commands.NUMBERS:
+            self.number(command)
+        elif name in commands.NAMES:
+            self.change(**{commands.NAMES[name]: command.value})
 
-
-class _Command(NamedTuple):
-    """A command as it stands: NAME(OPTIONS) = VALUE, and the whole statement."""
-
-    name: str
-    options: str | None
-    value: str
-    statement: str
-
-
-def _new_subcase(default: Subcase, value: str, others: list[Subcase]) -> Subcase:
-    """A subcase that begins with what stands above all subcases.
-
-    Raises:
-        ValueError: its number is none, or does not ascend.
-    """
-    number = _number(value)
-    if any(number <= other.id for other in others):
-        raise ValueError("ids of subcases must ascend")
-    return replace(
-        default,
-        id=number,
-        outputs=dict(default.outputs),
-        options=dict(default.options),
-    )
-
-
-def _carry_out(
-    command: _Command, current: Subcase, sets: dict[int, Selection], *, refuse: bool
-) -> Subcase | None:
-    """The subcase after a command; None: it has no effect here.
-
-    Raises:
-        ValueError: its value cannot be read; it would change the answer, and nothing
-            here carries it out.
-    """
-    name, options, value, statement = command
-    if name[:4] in _TITLES:
-        return _set(current, _TITLES[name[:4]], statement.split("=", 1)[-1].strip())
-    if name in _DIRECT and refuse and value:
-        raise ValueError(
-            f"{name} is not supported; {_DIRECT[name]}; --ignore CASE goes on "
-            "without it"
+    def request(self, command: _Command) -> None:
+        key, case = commands.QUANTITIES[command.name], self.current
+        chosen = self.sets.selection(command.value)
+        self.change(
+            outputs={**case.outputs, key: chosen},
+            options={**case.options, key: command.options},
         )
-    if name in _NUMBERS:
-        return _set(current, _NUMBERS[name], _number(value))
-    if name in _NAMES:
-        return _set(current, _NAMES[name], value)
-    if (key := _quantity(name)) is not None:
-        current.outputs[key] = _selection(value, sets)
-        words = (options or "()")[1:-1].split(",")
-        current.options[key] = tuple(w.strip() for w in words if w.strip())
-        return current
-    if name in _REFUSED and refuse and not _initial(name, options):
-        raise ValueError(f"{name} is not supported{_WHY.get(name[:4], '')}")
-    return None
+
+    # -- commands with rules of their own, called by name ---------------------------
+
+    def do_param(self, command: _Command) -> None:
+        parts = [part.strip() for part in command.statement.upper().split(",")]
+        if len(parts) < 3:
+            raise ValueError("expected PARAM,NAME,VALUE")
+        self.result.params.append((parts[1], parts[2], command.line))
+
+    def do_autospc(self, command: _Command) -> None:
+        """AUTOSPC(...) = NO says what PARAM,AUTOSPC says."""
+        value = command.value or "YES"
+        self.result.params.append(("AUTOSPC", value, command.line))
+
+    def do_set(self, command: _Command) -> None:
+        if not self.sets.define(command.statement.upper()):
+            self.passed_over["SET of names"] = None
+
+    def do_subcase(self, command: _Command) -> None:
+        self.open(command)
+
+    def do_sym(self, command: _Command) -> None:
+        """A subcase that SYMCOM will add up."""
+        self.open(command)
+
+    def do_subcom(self, command: _Command) -> None:
+        """The sum of the subcases before, with factors of SUBSEQ."""
+        others = [case.id for case in self.subcases if not case.combination]
+        if not others:
+            raise ValueError("there is no subcase before that it could combine")
+        self.open(command)
+        self.change(combination=tuple((i, 1.0) for i in others), load=0)
+
+    def do_symcom(self, command: _Command) -> None:
+        self.do_subcom(command)
+
+    def do_repcase(self, command: _Command) -> None:
+        """Other output of the subcase before."""
+        if not self.subcases:
+            raise ValueError("there is no subcase before that it could repeat")
+        before = self.subcases[-1]
+        self.open(command)
+        same = before.combination or ((before.id, 1.0),)
+        self.change(combination=same, load=0)
+
+    def do_subseq(self, command: _Command) -> None:
+        """Factors of the last subcases before a SUBCOM, in their order."""
+        members = [i for i, _ in self.current.combination]
+        if not members:
+            raise ValueError("belongs to a SUBCOM")
+        words = [w for w in re.split(r"[\s,]+", command.value) if w]
+        factors = [real(word) for word in words]
+        if len(factors) > len(members):
+            raise ValueError(
+                f"{len(factors)} factors for the {len(members)} subcases before"
+            )
+        last = members[len(members) - len(factors) :]
+        self.change(combination=tuple(zip(last, factors)))
+
+    def do_symseq(self, command: _Command) -> None:
+        self.do_subseq(command)
+
+    def do_temperature(self, command: _Command) -> None:
+        """TEMPERATURE(INITIAL, MATERIAL, LOAD or BOTH) = n; alone it is BOTH."""
+        kind = command.options[0] if command.options else "BOTH"
+        n = number(command.value)
+        if kind.startswith("INIT"):
+            self.change(initial_temperature=n)
+        elif kind.startswith(("LOAD", "BOTH")):
+            self.not_carried_out(command)
+            self.change(temperature=n)
+        else:
+            self.passed_over[f"TEMPERATURE({kind})"] = None
+
+    def do_super(self, command: _Command) -> None:
+        """SUPER = ALL and SUPER = 0 mean all there is."""
+        first = command.value.split(",")[0].strip()
+        if first not in ("", "ALL", "0"):
+            self.not_carried_out(command)
+            self.change(superelement=number(first))
+
+    def open(self, command: _Command) -> None:
+        """A subcase that begins with what stands above all subcases.
+
+        Raises:
+            ValueError: its number is none, or does not ascend.
+        """
+        n = number(command.value)
+        if any(n <= other.id for other in self.subcases):
+            raise ValueError("ids of subcases must ascend")
+        self.subcases.append(replace(self.default, id=n))
 
 
-def _initial(name: str, options: str | None) -> bool:
-    """TEMPERATURE(INITIAL), which only matters together with thermal loads."""
-    return name.startswith("TEMP") and (options or "").startswith("(INIT")
+_PLOTS = ("PLOT", "XYPLOT", "XYOUT")
 
 
 def _statements(lines: Iterable[Line]) -> Iterable[tuple[str, Line]]:
@@ -263,75 +359,3 @@ def _statements(lines: Iterable[Line]) -> Iterable[tuple[str, Line]]:
         pending, start = "", None
     if start is not None:
         yield pending.rstrip(","), start
-
-
-def _set(subcase: Subcase, name: str, value: int | str) -> Subcase:
-    return replace(subcase, **{name: value})
-
-
-def _quantity(name: str) -> str | None:
-    """Quantity of an output command; four letters are enough."""
-    return QUANTITIES.get(name[:4]) if len(name) != 4 or name in QUANTITIES else None
-
-
-def _number(text: str) -> int:
-    first = (re.split(r"[\s,]+", text) or [""])[0]
-    if not first.isascii() or not first.isdigit() or len(first) > 12:
-        raise ValueError(f"found '{text}', expected an integer")
-    return int(first)
-
-
-def _parameter(text: str, line: Line) -> tuple[str, str, Line]:
-    parts = [part.strip() for part in text.split(",")]
-    if len(parts) < 3:
-        raise ValueError("expected PARAM,NAME,VALUE")
-    return parts[1], parts[2], line
-
-
-def _selection(text: str, sets: dict[int, Selection]) -> Selection:
-    word = text.split()[0] if text.split() else "ALL"
-    if word in ("ALL", "YES"):
-        return "ALL"
-    if word in ("NONE", "NO"):
-        return "NONE"
-    number = _number(word)
-    if number not in sets:
-        raise ValueError(f"set {number} is not defined")
-    return sets[number]
-
-
-def _define_set(text: str, sets: dict[int, Selection]) -> None:
-    """SET n = 1, 2, 5 THRU 10 EXCEPT 7, 8."""
-    match = re.match(r"\s*SET\s+(\d{1,12})\s*=?\s*(.*)$", text, re.S)
-    if match is None:
-        # Sets of names and of real numbers (SET (SID)=...) serve other outputs.
-        return
-    number, body = int(match.group(1)), match.group(2)
-    words = body.replace(",", " , ").split()
-    if "ALL" in words:
-        sets[number] = "ALL"
-        return
-    ids: set[int] = set()
-    k, removing, largest = 0, False, 0
-    words = [word for word in words if word != ","]
-    while k < len(words):
-        word = words[k]
-        if word == "EXCEPT":
-            removing = True
-        elif word == "THRU":
-            if k == 0 or k + 1 == len(words):
-                raise ValueError("THRU needs a number on both sides")
-            first, last = _number(words[k - 1]), _number(words[k + 1])
-            if last < first or last - first > 10_000_000:
-                raise ValueError(f"found {first} THRU {last}, expected ascending ids")
-            ids.update(range(first, last + 1))
-            removing, k = False, k + 1
-            largest = last
-        elif word.isdigit():
-            # Beyond its range an EXCEPT is over.
-            removing = removing and _number(word) <= largest
-            (ids.discard if removing else ids.add)(_number(word))
-        elif "." not in word:  # sets of real numbers serve other requests
-            raise ValueError(f"found '{word}' in a set, expected ids")
-        k += 1
-    sets[number] = frozenset(ids)

@@ -91,7 +91,7 @@ LAYOUTS: dict[str, str] = {
     "MOMENT2": "sid:i g:i m:f g1:i g2:i g3:i g4:i",
     "SLOAD": "sid:i (id:i f:f)",
     "PLOAD": "sid:i p:f g1:i g2:i g3:i g4:i=0",
-    "PLOAD1": "sid:i eid:i type:s scale:s=LE x1:f=0. p1:f=0. x2:f=nan p2:f=nan",
+    "PLOAD1": "sid:i eid:i type:s scale:s x1:f=0. p1:f=0. x2:f=nan p2:f=0.",
     "GRAV": "sid:i cid:i=0 a:f n1:f=0. n2:f=0. n3:f=0. -",
     "RFORCE": (
         "sid:i g:i=0 cid:i=0 a:f=0. r1:f=0. r2:f=0. r3:f=0. method:i=1 racc:f=0. -"

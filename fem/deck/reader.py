@@ -6,9 +6,11 @@ that one faulty card hides no other. All problems of a deck are reported at once
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pyNastran.bdf.bdf_interface.bdf_card import BDFCard
 from pyNastran.bdf.cards.bdf_tables import TABDMP1, TABLED1
 from pyNastran.bdf.cards.elements.rigid import RBE3
@@ -16,6 +18,7 @@ from pyNastran.bdf.cards.properties.beam import PBEAM
 from pyNastran.bdf.cards.properties.bush import PBUSH
 from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
 
+from fem.arrays import Int64
 from fem.deck.cards.from_pynastran import EXTRACTORS
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
@@ -23,6 +26,7 @@ from fem.deck.checks import check, check_selected
 from fem.deck.cleanup import clean
 from fem.deck.deck import Deck
 from fem.deck.executive import read_executive
+from fem.deck.fields import Fields
 from fem.deck.lexer import Bulk, RawCard, read_cards
 from fem.deck.parameters import read_parameters
 from fem.deck.sections import Sections, split_sections
@@ -84,10 +88,14 @@ def read_deck(
     sections = split_sections(source.lines, str(path))
     executive = read_executive(sections.executive)
     ignore = {name.upper() for name in ignore}
-    case = read_case_control(sections.case_control, refuse="CASE" not in ignore)
+    bulk = read_cards(sections.bulk)
+    case = read_case_control(
+        sections.case_control,
+        refuse="CASE" not in ignore,
+        known=lambda: _possible_ids(bulk),
+    )
     notices = [*source.notices, *executive.notices, *case.notices]
     problems = [*sections.problems, *executive.problems, *case.problems]
-    bulk = read_cards(sections.bulk)
     deck = _deck(path, bulk, case, ignore, problems, notices)
     if sections.superelements and not superelements:
         numbers = ", ".join(map(str, sections.superelements))
@@ -111,6 +119,20 @@ def read_deck(
         ignored=deck.ignored,
         superelements=parts,
     )
+
+
+def _possible_ids(bulk: Bulk) -> Int64:
+    """Ids that points and elements of a deck may have, ascending: all first fields."""
+    found: set[int] = set()
+    for card in bulk.cards:
+        written = [text for text in card.fields[1:] if text][:1]
+        if card.name == "SPOINT":
+            with suppress(Malformed):  # reported where its table is made
+                points, between = Fields(card).ids(1, "ID")
+                found.update(points, between)
+        else:
+            found.update(int(text) for text in written if text.isdecimal())
+    return np.array(sorted(found), dtype=np.int64)
 
 
 def _deck(

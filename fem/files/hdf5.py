@@ -16,7 +16,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
-from fem.deck.case_control import Selection
+from fem.deck.case_sets import Selection
 from fem.files.aside import written_aside
 from fem.geometry.points import Points
 from fem.model.structure import Structure

@@ -5,6 +5,11 @@ Timoshenko beam (Przemieniecki, Theory of Matrix Structural Analysis, section 5.
 these are the end forces of a beam clamped at both ends, reversed. A tapered beam takes
 the mean of its section. Pin flags release end forces, which go where the stiffness of
 the element carries them; offsets turn forces into moments at the grids.
+
+Blank fields: X1, P1 and P2 are zero, SCALE has no default. With X2 blank, or equal to X1,
+P1 is a concentrated load at X1. With X2 beyond X1 the load runs linearly from P1 at X1 to
+P2 at X2; a blank P2 lets it fall to zero there, as in MSC Nastran's results. LEPR and
+FRPR: intensities per projected length, of loads along basic axes.
 """
 
 from dataclasses import dataclass
@@ -167,8 +172,7 @@ def _directions(rows: pd.DataFrame, lines: _Lines) -> Float64:
 
 def _intensities(rows: pd.DataFrame, lines: _Lines, direction: Float64) -> Float64:
     """(n, 2) load at both positions; per true length where given per projected one."""
-    p1 = rows["p1"].to_numpy(np.float64)
-    p2 = rows["p2"].fillna(rows["p1"]).to_numpy(np.float64)
+    p1, p2 = (rows[p].fillna(0.0).to_numpy(np.float64) for p in ("p1", "p2"))
     projected = rows["scale"].str.endswith("PR").to_numpy()
     across = np.sqrt(np.maximum(0.0, 1.0 - direction[:, 0] ** 2))
     scale = np.where(projected, across, 1.0)

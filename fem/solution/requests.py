@@ -5,7 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from fem.deck.case_control import Selection, Subcase
+from fem.deck.case_control import Subcase
+from fem.deck.case_sets import Selection
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
 from fem.errors import InputError

@@ -1,6 +1,6 @@
 """The story of a run: model, solutions of the subcases, result file."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import perf_counter
 
@@ -48,6 +48,7 @@ def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
     options = options or Options()
     start = perf_counter()
     work = _by_solution(deck)
+    _refuse_what_is_not_carried_out(deck, work)
     check_requests(deck, work)
     structure = Structure(deck, work[0][1][0])
     with ResultFile(path) as results:
@@ -87,6 +88,26 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     if not work:
         raise InputError(f"{deck.path}: no subcases")
     return list(work.items())
+
+
+def _refuse_what_is_not_carried_out(
+    deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]
+) -> None:
+    """Refuse commands of case control that would change what is found.
+
+    Raises:
+        InputError: all of them.
+    """
+    problems = [text for case in deck.case_control for text in case.not_carried_out]
+    problems += [
+        f"{deck.path}: subcase {case.id}: SUBCOM, SYMCOM and REPCASE combine static "
+        f"subcases, not those of SOL {number}"
+        for number, cases in work
+        for case in cases
+        if case.combination and number != 101
+    ]
+    if problems:
+        raise InputError(dict.fromkeys(problems))
 
 
 def _say_what_is_left_out(

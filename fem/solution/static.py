@@ -1,6 +1,7 @@
 """SOL 101: subcases with the same supports are solved as one block."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
@@ -13,7 +14,7 @@ from fem.deck.case_control import Subcase
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.loads import enforced_displacements, static_element_loads, static_load
-from fem.loads.element_loads import ElementLoads
+from fem.loads.element_loads import ElementLoads, below_each_other
 from fem.model.structure import Structure
 from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
 from fem.recovery.grid_forces import grid_balance, grids_of, strain_energy
@@ -32,13 +33,69 @@ def solve_statics(
     Raises:
         InputError: no load, or a structure that moves freely; its grids are named.
     """
-    for group in _with_same_support(subcases):
+    solved: dict[int, _Solution] = {}
+    for group in _with_same_support(c for c in subcases if not c.combination):
         model = structure.with_subcase(group[0])
         load, eliminations = _loads(model, group)
         u_g, residual = _solve(model, load, eliminations, options)
         for i, subcase in enumerate(group):
-            _write(model, subcase, u_g[:, i], residual[:, i], load[:, i], results)
-            options.console.say(_summary(model, subcase, u_g[:, i], residual[:, i]))
+            loads = static_element_loads(model.deck, model.points, subcase.load)
+            found = _Solution(u_g[:, i], residual[:, i], load[:, i], loads)
+            solved[subcase.id] = found
+    for subcase in subcases:
+        # A combination has the supports of its own: they sort the forces only.
+        model = structure.with_subcase(subcase)
+        found = (
+            _combined(model, subcase, solved)
+            if subcase.combination
+            else solved[subcase.id]
+        )
+        _write(model, subcase, found, results)
+        options.console.say(_summary(model, subcase, found.u_g, found.residual))
+
+
+@dataclass(frozen=True)
+class _Solution:
+    """What was found for a subcase, (g,) each, and loads between grids.
+
+    Attributes:
+        u_g: displacements.
+        residual: forces of constraint.
+        load: applied.
+        element_loads: of it, what acts on elements; None: nothing.
+    """
+
+    u_g: Float64
+    residual: Float64
+    load: Float64
+    element_loads: ElementLoads | None
+
+
+def _combined(
+    model: Structure, subcase: Subcase, solved: Mapping[int, _Solution]
+) -> _Solution:
+    """Sum of solutions with factors (SUBCOM, SYMCOM, REPCASE).
+
+    Raises:
+        InputError: a member was not solved as a static subcase.
+    """
+    absent = [i for i, _ in subcase.combination if i not in solved]
+    if absent:
+        raise InputError(
+            f"{model.deck.path}: subcase {subcase.id} combines subcase {absent[0]}, "
+            "which is not static"
+        )
+    parts = [(factor, solved[i]) for i, factor in subcase.combination]
+    loads = [
+        part.element_loads.times(factor)
+        for factor, part in parts
+        if part.element_loads is not None
+    ]
+    sums = (
+        np.sum([factor * getattr(part, name) for factor, part in parts], axis=0)
+        for name in ("u_g", "residual", "load")
+    )
+    return _Solution(*sums, below_each_other(loads) if loads else None)
 
 
 def _summary(
@@ -138,14 +195,10 @@ def _inertia_forces(model: Structure, acceleration_f: Float64) -> Float64:
 
 
 def _write(
-    model: Structure,
-    subcase: Subcase,
-    u_g: Float64,
-    residual: Float64,
-    load: Float64,
-    results: ResultFile,
+    model: Structure, subcase: Subcase, found: _Solution, results: ResultFile
 ) -> None:
     name, points, asked = f"static/{subcase.id}", model.points, subcase.outputs
+    u_g, residual, load = found.u_g, found.residual, found.load
     spc_force = model.elimination.spc_force(residual)
     mpc_force = model.elimination.mpc_force(residual)
     results.write_points(
@@ -166,8 +219,7 @@ def _write(
     if asked.get("ESE", "NONE") != "NONE":
         energies = strain_energy(points, model.blocks, u_g)
         results.write_energies(f"{name}/strain_energy", energies, ids_of(asked["ESE"]))
-    loads = static_element_loads(model.deck, points, subcase.load)
-    write_element_results(model, subcase, u_g, results, name, loads)
+    write_element_results(model, subcase, u_g, results, name, found.element_loads)
 
 
 def write_grid_forces(

@@ -48,7 +48,11 @@ def test_deck_without_subcases_has_one(read):
     [
         ("SPC = X", "expected an integer"),
         ("DISP = 9", "set 9 is not defined"),
-        ("TEMPERATURE(LOAD) = 4", "TEMPERATURE is not supported"),
+        ("LAOD = 1", "LAOD is no case control command; did you mean 'LOAD'"),
+        ("K2PP = A", "K2GG adds a symmetric matrix"),
+        ("SUBCOM 2", "no subcase before"),
+        ("SUBCASE 1\nSUBCOM 2\nSUBSEQ = 1., 2.", "2 factors for the 1 subcases"),
+        ("OUTPUT(XYPLOT)\nSPC = 1", "reads no selections"),
         ("SET 1 = 5 THRU 2", "ascending"),
         ("SUBCASE 2\nSUBCASE 2", "must ascend"),
         ("SPC = 99", "SPC = 99 is not defined"),
@@ -96,3 +100,73 @@ def test_unknown_solution_proposes_the_nearest(tmp_path):
     path.write_text("SOL SEMODE\nCEND\nBEGIN BULK\nGRID,1\nENDDATA\n")
     with pytest.raises(InputError, match="did you mean 'SEMODES'"):
         read_deck(path)
+
+
+def test_bare_output_line_ends_nothing(read):
+    """As Simcenter writes it, before the requests."""
+    deck = read(case="OUTPUT\nDISP(PLOT) = ALL\nSUBCASE 1\nSPC = 1\nLOAD = 1")
+    (only,) = deck.case_control
+    assert (only.spc, only.load) == (1, 1)
+    assert only.outputs["DISPLACEMENT"] == "ALL"
+
+
+@pytest.mark.parametrize("option", ["(PLOT)", " (XYPLOT)", "(XYOUT)"])
+def test_plot_section_ends_at_the_next_subcase(read, option):
+    case = f"SUBCASE 1\nLOAD = 1\nOUTPUT{option}\nFIND SCALE\nPLOT SET 1\n"
+    deck = read(case=case + "SUBCASE 2\nLOAD = 1\nSPC = 1")
+    assert [c.spc for c in deck.case_control] == [0, 1]
+    assert "plot and curve requests after OUTPUT are passed over: FIND, PLOT" in (
+        deck.notices
+    )
+
+
+def test_grid_point_stress_section_holds_other_commands(read):
+    deck = read(case="OUTPUT(POST)\nSURFACE 1 SET 2 NORMAL Z\nSPC = 1")
+    assert deck.case_control[0].spc == 1
+    assert any("without effect here: SURFACE" in text for text in deck.notices)
+
+
+def test_what_is_passed_over_is_named_in_one_notice(read):
+    deck = read(case="ECHO = NONE\nMAXLINES = 9\nTRIM = 1\nAEROF = ALL\nFOO = 1")
+    assert [text for text in deck.notices if "case control" in text] == [
+        "case control commands without effect here: AEROF, ECHO, MAXLINES, TRIM",
+        "case control commands that are not known, passed over: FOO",
+    ]
+
+
+def test_four_letters_are_enough(read):
+    case = read(
+        case="METH = 0\nTITL = x\nSPCF = ALL\nDISPLACEMENTS = ALL\nELSTRN = ALL"
+    )
+    (only,) = case.case_control
+    assert (only.title, set(only.outputs)) == (
+        "x",
+        {"SPCFORCES", "DISPLACEMENT", "STRAIN"},
+    )
+
+
+def test_set_without_end_holds_the_ids_of_the_deck(read):
+    deck = read(case="SET 1 = 2 THRU 99999999 EXCEPT 3\nDISP = 1")
+    assert deck.case_control[0].outputs["DISPLACEMENT"] == frozenset({2})
+
+
+def test_all_superelements_of_a_deck_without_any(read):
+    assert read(case="SUPER = ALL").case_control[0].superelement == 0
+    (only,) = read(case="SUPER = 3").case_control
+    assert "SUPER is not supported" in only.not_carried_out[0]
+
+
+def test_commands_that_only_a_solution_needs_wait_for_it(read):
+    (only,) = read(case="P2G = X\nSTATSUB = 1").case_control
+    assert len(only.not_carried_out) == 2
+    (only,) = read(case="P2G = X", ignore=["CASE"]).case_control
+    assert not only.not_carried_out
+
+
+def test_subcom_takes_the_last_subcases(read):
+    case = "LOAD=1\nSUBCASE 1\nSUBCASE 2\nSUBCOM 3\nSUBSEQ = 0.5\nREPCASE 4\nSYM 5\n"
+    cases = read(case=case + "SYMCOM 6").case_control
+    assert cases[2].combination == ((2, 0.5),)
+    assert cases[3].combination == ((2, 0.5),)
+    assert cases[5].combination == ((1, 1.0), (2, 1.0), (5, 1.0))
+    assert [c.load for c in cases] == [1, 1, 0, 0, 1, 0]
