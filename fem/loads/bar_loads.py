@@ -6,10 +6,10 @@ these are the end forces of a beam clamped at both ends, reversed. A tapered bea
 the mean of its section. Pin flags release end forces, which go where the stiffness of
 the element carries them; offsets turn forces into moments at the grids.
 
-Blank fields: X1, P1 and P2 are zero, SCALE has no default. With X2 blank, or equal to X1,
-P1 is a concentrated load at X1. With X2 beyond X1 the load runs linearly from P1 at X1 to
-P2 at X2; a blank P2 lets it fall to zero there, as in MSC Nastran's results. LEPR and
-FRPR: intensities per projected length, of loads along basic axes.
+Blank fields: X1, P1 and P2 are zero, SCALE has no default. With X2 blank, or equal to
+X1, P1 is a concentrated load at X1. With X2 beyond X1 the load runs linearly from P1 at
+X1 to P2 at X2; a blank P2 lets it fall to zero there, as in MSC Nastran's results. LEPR
+and FRPR: intensities per projected length, of loads along basic axes.
 """
 
 from dataclasses import dataclass
