@@ -1,0 +1,15 @@
+from .case.reading import load_case as load_case
+from .case.reading import parse_case as parse_case
+from .case.schema import Case as Case
+from .gears.bodies import AddLandingGear as AddLandingGear
+from .gears.systems import AddGearSystems as AddGearSystems
+from .landing.diagram import LandingDiagram as LandingDiagram
+from .landing.diagram import MakeLandingDiagram as MakeLandingDiagram
+from .landing.run import fly as fly
+from .parametric import ParametricAircraft as ParametricAircraft
+from .parametric import WrittenAircraft as WrittenAircraft
+from .parametric import register as register
+from .process.run import run_case as run_case
+from .results.result import ProcessResult as ProcessResult
+
+__version__: str

@@ -1,0 +1,90 @@
+"""What a user imports is there, stays itself, and is not somebody else's."""
+
+import importlib
+import os
+import pkgutil
+import subprocess
+import sys
+import types
+import zipfile
+from pathlib import Path
+
+import pytest
+
+import drake_landing
+import fem
+import systems
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = (drake_landing, fem, systems)
+
+
+def _import_all(package: types.ModuleType) -> None:
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        if not module.name.endswith("__main__"):
+            importlib.import_module(module.name)
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda p: p.__name__)
+def test_public_names_are_no_modules_even_after_all_are_imported(package) -> None:
+    _import_all(package)
+    for name in set(package.__all__) - {"__version__"}:
+        value = getattr(package, name)
+        assert not isinstance(value, types.ModuleType), name
+        assert getattr(value, "__module__", "").split(".")[0] != "builtins", name
+    assert set(package.__all__) <= set(dir(package))
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda p: p.__name__)
+def test_packages_are_typed(package) -> None:
+    folder = Path(package.__path__[0])
+    assert (folder / "py.typed").exists()
+    assert (folder / "__init__.pyi").exists()
+
+
+@pytest.mark.parametrize("foreign", ["fem.py", "systems/__init__.py"])
+def test_foreign_packages_are_named(foreign: str, tmp_path: Path) -> None:
+    file = tmp_path / foreign
+    file.parent.mkdir(exist_ok=True)
+    file.write_text("x = 1\n")
+    run = subprocess.run(
+        [sys.executable, "-c", "import drake_landing"],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(["", str(ROOT)])},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 1
+    last = run.stderr.strip().splitlines()[-1]
+    assert str(file) in last
+    assert "rename" in last
+
+
+def test_version() -> None:
+    assert drake_landing.__version__.count(".") == 2
+
+
+@pytest.mark.slow
+def test_wheel_runs_in_a_hostile_folder(tmp_path: Path) -> None:
+    """A wheel has all data; a foreign fem.py where it is started does no harm."""
+    build = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps"]
+    subprocess.run([*build, "-w", str(tmp_path), str(ROOT)], check=True)
+    wheel = next(tmp_path.glob("*.whl"))
+    site = tmp_path / "site"
+    with zipfile.ZipFile(wheel) as archive:
+        archive.extractall(site)
+    place = tmp_path / "place"
+    (place / "systems").mkdir(parents=True)
+    (place / "systems" / "__init__.py").write_text("x = 1\n")
+    (place / "fem.py").write_text("x = 1\n")
+    # As the installed command does it: the folder of the start is not searched.
+    code = "from drake_landing.__main__ import main; main()"
+    run = subprocess.run(
+        [sys.executable, "-P", "-c", code, "demo", "--out", str(tmp_path / "demo")],
+        cwd=place,
+        env={**os.environ, "PYTHONPATH": str(site)},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 0, run.stderr
+    assert (tmp_path / "demo" / "report.html").exists()
