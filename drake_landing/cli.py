@@ -274,9 +274,10 @@ def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
 
 
 def _summary(result: "ProcessResult", folder: Path) -> str:
+    from drake_landing.results.reliability import reliability
     from drake_landing.results.summary import key_figures, story, time_taken
 
-    figures = key_figures(result)
+    figures = [*key_figures(result), *reliability(result)]
     width = max(len(name) for name, _ in figures)
     lines = [story(result), ""]
     lines += [f"  {name:<{width}}  {value}" for name, value in figures]

@@ -283,6 +283,14 @@ class Transient(Section):
     """The direct transient response of the full model."""
 
     step: float = number("time step", "s", 5e-4, gt=0, le=0.01)
+    accept: float = number(
+        "error of peak accelerations through the step that is accepted; more than 10 "
+        "is refused without it",
+        "%",
+        10.0,
+        gt=0,
+        le=100,
+    )
     scheme: Literal["nastran", "generalised-alpha"] = Field(
         default="nastran", description="time integration"
     )

@@ -19,11 +19,13 @@ from drake_landing.airframe.body import check_nodes, modal_body
 from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_free_flight, check_mass
 from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.results.files import FILES
+from drake_landing.transient.step_error import StepError, expected_step_error
 from fem.algebra.linear_solver import factorize
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
@@ -64,14 +66,17 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         check_mass(structure)
         check_units(structure, aircraft)
         remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
-        cost = None
+        cost, step = None, None
         if thorough or structure.size <= _AT_ONCE:
             check_free_flight(structure)
             cost = _cost(structure)
+            step = expected_step_error(case, aircraft, structure, Cache.of_user())
         _dry_run(case, aircraft, structure)
     lines = [*_airframe(case, aircraft, structure, cost), *_gears(aircraft)]
-    lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost)]
+    lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
+    if step is not None:
+        remarks = (*remarks, *step.remarks)
     notices = (*aircraft.notices, *map(case.places.named, remarks))
     notices += (*structure.notices, *structure.damping_notices)
     return "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
@@ -183,13 +188,16 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
     yield _line("", f"{mass:,.1f} kg in all, sink energy {energy / 1e3:.1f} kJ")
 
 
-def _run(case: Case, structure: Structure, cost: Cost | None) -> Iterator[str]:
+def _run(
+    case: Case, structure: Structure, cost: Cost | None, step: StepError | None
+) -> Iterator[str]:
     steps = case.transient_duration / case.transient.step
     yield _line(
         "run",
         f"landing {case.simulation.duration:g} s ({case.simulation.integrator}), then "
         f"{steps:.0f} steps of {case.transient.step:g} s of the full model",
     )
+    yield _line("", str(step) if step else "error of the step: check --thorough")
     if cost:
         yield _line(
             "",

@@ -10,6 +10,7 @@ from pathlib import Path
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.body import AirframeModel, check_nodes, load_airframe
 from drake_landing.airframe.deck_units import check_units, in_deck_units
+from drake_landing.airframe.free_flight import check_mass
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
@@ -35,6 +36,7 @@ from drake_landing.transient.deck import (
 )
 from drake_landing.transient.extremes import worst_elements
 from drake_landing.transient.practices import rigid
+from drake_landing.transient.step_error import expected_step_error
 from fem.deck.units import units_of
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
@@ -76,6 +78,9 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
     stages.begin("assembling the matrices")
     _assemble(structure)
+    check_mass(structure)
+    stages.begin("expected error of the time step")
+    step = expected_step_error(case, aircraft, structure, cache)
     stages.begin("eigenmodes")
     airframe = load_airframe(
         case.airframe,
@@ -131,11 +136,12 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         comparison=comparison,
         gears=gear_peaks(case.name, history),
         parts=full.parts,
+        step=step,
         practices=full.practices,
         notices=(
             *aircraft.notices,
             *airframe.notices,
-            *map(case.places.named, remarks),
+            *map(case.places.named, (*remarks, *step.remarks)),
             *fast_mode_notices(airframe.body, case.simulation),
         ),
         stages=stages,

@@ -21,6 +21,7 @@ from drake_landing.report.page import (
 )
 from drake_landing.report.parts_sections import Picture, parts_sections
 from drake_landing.results.comparison import NEGLIGIBLE, shock_response_spectrum
+from drake_landing.results.reliability import reliability
 from drake_landing.results.summary import key_figures, mode_count, story
 from drake_landing.transient.extremes import worst_elements
 
@@ -89,7 +90,14 @@ def write_report(
 def _sections(
     result: "ProcessResult", pictures: Sequence[Picture], unable: str
 ) -> Iterator[Section]:
-    yield Section(id="case", title="Case", blocks=[pairs_block(_case_pairs(result))])
+    yield Section(
+        id="case",
+        title="Case",
+        blocks=[
+            pairs_block(_case_pairs(result)),
+            pairs_block(reliability(result), "How far the numbers carry"),
+        ],
+    )
     yield from parts_sections(result, pictures, unable)
     yield Section(
         id="gears",

@@ -14,6 +14,7 @@ from drake_landing.landing.history import POINT, LandingHistory
 from drake_landing.parts.watch import PartsFound
 from drake_landing.results.stages import Stages
 from drake_landing.transient.practices import Practices
+from drake_landing.transient.step_error import StepError
 from fem.recovery.envelope import Envelope
 
 
@@ -30,6 +31,7 @@ class ProcessResult:
         response: acceleration of the monitoring points, direct transient, B.
         envelopes: extremes of all element forces and stresses in the transient.
         parts: what the parts see.
+        step: what the time step of the transient is expected to cost.
         practices: the three practices side by side, where they were asked for.
         comparison: table of `comparison.csv`.
         gears: table of `gears.csv`.
@@ -47,6 +49,7 @@ class ProcessResult:
     comparison: pd.DataFrame
     gears: pd.DataFrame
     parts: PartsFound
+    step: StepError
     practices: Practices | None = None
     notices: tuple[str, ...] = ()
     stages: Stages = field(default_factory=Stages, repr=False)

@@ -1,0 +1,123 @@
+"""How the full model answers gear loads, in few shapes and without its eigenmodes.
+
+Ritz vectors of the loads (E. L. Wilson, M.-W. Yuan, J. M. Dickens, Earthquake
+Engineering and Structural Dynamics 10, 1982; from memory): the static answers of unit
+loads at the attachment nodes, what their inertia forces cause in turn, and so on. With
+A = K + σ M, which is regular though the airframe flies freely,
+
+    X_0 = A⁻¹ P,   X_k+1 = A⁻¹ M X_k,
+
+orthogonal to each other and to the rigid motions. One factorisation and some hundred
+solutions give what these loads excite in the full model, local modes that they do not
+excite left out; the lowest are its eigenmodes. Good for what is expected of a transient
+before it is run.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+import scipy.sparse as sp
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.basis import Basis
+from drake_landing.airframe.relevance import ModalModel
+from drake_landing.airframe.selection import modal_model
+from drake_landing.cache import Arrays, Cache, content_key
+from fem.algebra.linear_solver import factorize
+from fem.model.structure import Structure
+
+Float64 = npt.NDArray[np.float64]
+
+_MOST = 96  # vectors
+_SHIFT = (2.0 * np.pi * 30.0) ** 2  # 1/s²: amid the frequencies that gears excite
+_DEPENDENT = 1e-7  # what is left of a vector that others span
+
+
+def load_model(
+    structure: Structure, aircraft: Aircraft, cache: Cache | None = None
+) -> ModalModel:
+    """Rigid-body modes and shapes that gear loads excite, at the aircraft's nodes.
+
+    Args:
+        structure: free-flying.
+        aircraft: its gears and monitoring points.
+        cache: where the same may be found.
+    """
+    nodes = sorted(set(aircraft.attachment_nodes))
+    pattern = structure.operator(nodes, frame="basic").T
+    points = structure.operator(list(aircraft.monitoring.values()), frame="basic")
+
+    def build() -> Arrays:
+        frequency, shape = load_shapes(structure, pattern.toarray())
+        basis = Basis(
+            frequency_hz=frequency,
+            shape=shape,
+            rigid=structure.rigid_body,
+            freedoms=structure.size,
+        )
+        found = modal_model(structure, basis, aircraft)
+        return {
+            "frequency_hz": found.frequency_hz,
+            "damping": found.damping,
+            "monitor": found.monitor,
+            "attachment": np.array([found.attachment[n] for n in nodes]),
+        }
+
+    b = structure.damping
+    key = content_key(
+        *(structure.stiffness, structure.mass, b.other),
+        *(b.stiffness_factor, b.mass_factor, pattern, points, _MOST, _SHIFT),
+    )
+    arrays = (cache or Cache(None)).arrays("load-shapes", key, build)
+    return ModalModel(
+        frequency_hz=arrays["frequency_hz"],
+        damping=arrays["damping"],
+        monitor=arrays["monitor"],
+        attachment=dict(zip(nodes, arrays["attachment"])),
+    )
+
+
+def load_shapes(structure: Structure, loads: Float64) -> tuple[Float64, Float64]:
+    """Frequencies (n,) Hz, ascending, and mass-normalised shapes (f, n).
+
+    Args:
+        structure: free-flying.
+        loads: (f, k) on the free set.
+    """
+    k, m = structure.stiffness, structure.mass
+    gram = structure.rigid_body.T @ (m @ structure.rigid_body)
+    rigid = structure.rigid_body @ np.linalg.inv(np.linalg.cholesky(gram)).T
+    with factorize(sp.csr_matrix(k + _SHIFT * m), kind="symmetric") as factor:
+        shape = _krylov(m, rigid, loads, factor.solve)
+    values, turn = scipy.linalg.eigh(shape.T @ (k @ shape))
+    return np.sqrt(np.maximum(values, 0.0)) / (2.0 * np.pi), shape @ turn
+
+
+def _krylov(
+    mass: sp.csr_matrix,
+    rigid: Float64,
+    loads: Float64,
+    solve: Callable[[Float64], Float64],
+) -> Float64:
+    """(f, n) M-orthonormal vectors, orthogonal to the rigid motions."""
+    basis = rigid
+    block = solve(loads)
+    while len(block.T) and len(basis.T) < _MOST + len(rigid.T):
+        block = _orthonormal(block, basis, mass)[:, : _MOST + len(rigid.T)]
+        basis = np.hstack([basis, block])
+        block = solve(mass @ block) if len(block.T) else block
+    return basis[:, len(rigid.T) :][:, :_MOST]
+
+
+def _orthonormal(block: Float64, basis: Float64, mass: sp.csr_matrix) -> Float64:
+    """What a block has beyond a basis; dependent vectors are left out."""
+    size = np.sqrt(np.einsum("fi,fi->i", block, mass @ block))
+    block = block[:, size > 0.0] / size[size > 0.0]
+    for _ in range(2):  # once is not enough where much is taken away
+        block = block - basis @ (basis.T @ (mass @ block))
+        values, turn = np.linalg.eigh(block.T @ (mass @ block))
+        counts = values > _DEPENDENT**2
+        block = block @ (turn[:, counts] / np.sqrt(values[counts]))
+    return block
