@@ -4,7 +4,6 @@
 test keeps both alike.
 """
 
-import re
 import sys
 from pathlib import Path
 
@@ -12,112 +11,34 @@ from fem.deck.case_commands import QUANTITIES
 from fem.deck.catalogue import PASSED_OVER
 from fem.deck.params import DEFAULTS
 from fem.deck.reader import SUPPORTED
-from fem.elements.lines import bar, beam, beam_stations, rod
-from fem.elements.scalars import bush, scalar, visc
-from fem.elements.shells import shear_panel, shell_recovery
-from fem.elements.shells.failure_recovery import failure_names
-from fem.elements.solids import solid
+from fem.deck.records import CARDS, Result, results
 from fem.solution.options import WRITTEN
 
 BEGIN, END = "<!-- tables: python -m fem.overview -->", "<!-- end of tables -->"
 
-# Group of a card by its name, first match first.
-_GROUPS: tuple[tuple[str, str], ...] = (
-    ("Points, frames", r"GRID|GRDSET|SPOINT|CORD.*"),
-    ("Rigid elements, constraints", r"RBE\d|RBAR|MPC.*|SPC|SPC1|SPCADD|SUPORT"),
-    ("Sets of a reduction", r"[ABQ]SET1?|BNDFIX1?|SE.*"),
-    ("Masses", r"CONM\d|CMASS\d|PMASS|NSM.*"),
-    ("Line elements", r"C(BAR|BEAM|ROD|ONROD|TUBE|VISC)|P(BAR|BEAM|ROD|TUBE|VISC)L?"),
-    ("Defaults of line elements", r"BAROR|BEAMOR"),
-    ("Springs, dampers", r"[CP](ELAS|DAMP|BUSH)\d?"),
-    ("Shells, panels", r"C(QUAD4|TRIA3|SHEAR)|P(SHELL|COMPG?|SHEAR)"),
-    ("Solids", r"C(HEXA|PENTA|TETRA|PYRAM)|PSOLID"),
-    ("Materials", r"MAT\d"),
-    ("Matrices", r"DMIG"),
-    ("Static loads", r"(FORCE|MOMENT|PLOAD)\d?|GRAV|ACCEL1|RFORCE|SLOAD|SPCD|LOAD"),
-    ("Dynamic loads", r"TLOAD\d|DLOAD|LSEQ|DAREA|DELAY|TABLED1|TIC|TSTEP"),
-    ("Modes", r"EIGRL?|TABDMP1"),
-    ("Other", r"PARAM|PLOTEL"),
-)
-
 
 def groups() -> dict[str, list[str]]:
-    """Supported cards by group; a card of no group is a mistake of this module.
-
-    Raises:
-        LookupError: a card without a group.
-    """
-    found: dict[str, list[str]] = {name: [] for name, _ in _GROUPS}
-    for card in SUPPORTED:
-        for name, pattern in _GROUPS:
-            if re.fullmatch(pattern, card):
-                found[name].append(card)
-                break
-        else:
-            raise LookupError(f"{card} has no group in fem.overview")
+    """Supported cards by group."""
+    found: dict[str, list[str]] = {card.group: [] for card in CARDS.values()}
+    for name in SUPPORTED:
+        found["Other" if name == "PARAM" else CARDS[name].group].append(name)
     return found
 
 
-# Table of the result file -> kind -> columns of one point, and at which points.
-_RESULTS: tuple[tuple[str, str, str, tuple[str, ...], str], ...] = (
-    ("CBAR", "force", "", bar.FORCE_COLUMNS, "shear, axial force, torque of end A"),
-    ("CBAR_ENDS", "force", "", bar.END_COLUMNS, "bars under PLOAD1"),
-    ("CBAR", "stress", "strain", bar.STRESS_COLUMNS, ""),
-    ("CBEAM", "force", "", beam.FORCE_COLUMNS, "both ends"),
-    ("CBEAM", "stress", "strain", beam.STRESS_COLUMNS, "both ends"),
-    (
-        "CBEAM_STATIONS",
-        "force",
-        "",
-        beam_stations.station_columns(beam_stations.FORCES, 1),
-        "stations between with SO YES, suffix _s1, _s2, ...; not under PLOAD1",
-    ),
-    (
-        "CBEAM_STATIONS",
-        "stress",
-        "strain",
-        beam_stations.station_columns(beam_stations.STRESSES, 1),
-        "likewise",
-    ),
-    ("CROD, CONROD, CTUBE", "force", "", rod.COLUMNS, ""),
-    ("CROD, CONROD, CTUBE", "stress", "strain", rod.COLUMNS, ""),
-    ("CELAS1 ... CELAS4", "force", "stress, strain", scalar.SPRING_COLUMNS, ""),
-    ("CDAMP1 ... CDAMP4", "force", "", scalar.DAMPER_COLUMNS, "transients"),
-    ("CVISC", "force", "", visc.COLUMNS, "transients"),
-    ("CBUSH", "force", "", bush.COLUMNS, "with dashpots in transients"),
-    ("CBUSH", "stress", "strain", bush.STRESS_COLUMNS, "by the coefficients RCV"),
-    ("CQUAD4, CTRIA3", "force", "", shell_recovery.FORCE, "centre, CORNER: + corners"),
-    (
-        "CQUAD4, CTRIA3",
-        "stress",
-        "strain",
-        shell_recovery.stress_names(1),
-        "both fibres (strains: surface and curvature, FIBER: both fibres)",
-    ),
-    (
-        "CQUAD4_COMPOSITE, CTRIA3_COMPOSITE",
-        "stress",
-        "strain",
-        shell_recovery.ply_names(1),
-        "each ply, suffix _p1, _p2, ... from the bottom",
-    ),
-    (
-        "CQUAD4_COMPOSITE, CTRIA3_COMPOSITE",
-        "failure",
-        "",
-        failure_names(1),
-        "each ply, with STRESS where PCOMP gives FT or SB",
-    ),
-    ("CSHEAR", "force", "", shear_panel.FORCE, ""),
-    ("CSHEAR", "stress", "strain", shear_panel.STRESS, ""),
-    (
-        "CHEXA, CPENTA, CTETRA, CPYRAM",
-        "stress",
-        "strain",
-        solid.STRESS,
-        "centre, then corners (prefix c1_, c2_, ...)",
-    ),
-)
+def _results() -> list[str]:
+    """Rows of the tables of results; cards with like results share one."""
+    rows: dict[Result, list[str]] = {}
+    for card, result in results():
+        rows.setdefault(result, []).append(card.name + result.table)
+    return [
+        _row(
+            ", ".join(tables),
+            ", ".join(result.kinds),
+            " ".join(result.columns),
+            result.remark,
+        )
+        for result, tables in rows.items()
+    ]
 
 
 def section() -> str:
@@ -151,10 +72,7 @@ def section() -> str:
             "### Element results in the file",
             "",
             *_table("table", "kinds", "columns", "remark"),
-            *(
-                _row(table, ", ".join(filter(None, kinds)), " ".join(columns), remark)
-                for table, *kinds, columns, remark in _RESULTS
-            ),
+            *_results(),
         ]
     )
 

@@ -7,21 +7,11 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from fem.deck.grids import corners_of
+from fem.deck.records import topologies
+
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
-
-_LINES = {
-    "CBAR": ("ga", "gb"),
-    "CBEAM": ("ga", "gb"),
-    "CROD": ("g1", "g2"),
-    "CTUBE": ("g1", "g2"),
-    "PLOTEL": ("g1", "g2"),
-}
-_FACES = {
-    "CQUAD4": ("g1", "g2", "g3", "g4"),
-    "CTRIA3": ("g1", "g2", "g3"),
-    "CSHEAR": ("g1", "g2", "g3", "g4"),
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,11 +100,9 @@ def element_edges(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:
         (e, 2) rows of `grid_id`.
     """
     pairs = [np.zeros((0, 2), np.int64)]
-    for card, (a, b) in _LINES.items():
-        pairs.append(cards[card][[a, b]].to_numpy(np.int64))
-    for card, corners in _FACES.items():
-        nodes = cards[card][list(corners)].to_numpy(np.int64)
-        pairs += [nodes[:, [i, i - 1]] for i in range(len(corners))]
+    shapes = topologies("line", "surface")
+    for card, (_, corners) in corners_of(cards, "line", "surface").items():
+        pairs += [corners[:, edge] for edge in shapes[card].edges]
     for rigid in cards["RBE2"].itertuples():
         pairs.append(np.array([[rigid.gn, g] for g in rigid.gms], dtype=np.int64))
     for rigid in cards["RBE3"].itertuples():
@@ -138,10 +126,9 @@ def element_faces(cards: Mapping[str, pd.DataFrame], grid_id: Int64) -> Int64:
         (t, 3) rows of `grid_id`.
     """
     found = [np.zeros((0, 3), np.int64)]
-    for card, corners in _FACES.items():
-        nodes = cards[card][list(corners)].to_numpy(np.int64)
-        found.append(nodes[:, :3])
-        if len(corners) == 4:
-            found.append(nodes[:, [0, 2, 3]])
+    for _, corners in corners_of(cards, "surface").values():
+        found.append(corners[:, :3])
+        if corners.shape[1] == 4:
+            found.append(corners[:, [0, 2, 3]])
     faces = np.concatenate([f.reshape(-1, 3) for f in found])
     return np.searchsorted(grid_id, faces[np.isin(faces, grid_id).all(axis=1)])

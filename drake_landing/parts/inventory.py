@@ -9,30 +9,15 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.show.comments import component_names, read_names
+from fem.deck.grids import grids_of
+from fem.deck.records import CARDS, TABLES, topologies
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
-_NODES = {
-    "CQUAD4": ("g1", "g2", "g3", "g4"),
-    "CSHEAR": ("g1", "g2", "g3", "g4"),
-    "CTRIA3": ("g1", "g2", "g3"),
-    "CBAR": ("ga", "gb"),
-    "CBEAM": ("ga", "gb"),
-    "CROD": ("g1", "g2"),
-    "CONROD": ("g1", "g2"),
-    "CTUBE": ("g1", "g2"),
-}
-_SOLIDS = ("CHEXA", "CPENTA", "CTETRA", "CPYRAM")
-# Property card -> columns that name its material, the decisive one first.
-_MATERIAL = {
-    "PSHELL": ("mid2", "mid1"),
-    **dict.fromkeys(
-        ("PBAR", "PBARL", "PBEAM", "PBEAML", "PROD", "PTUBE", "PSHEAR", "PSOLID"),
-        ("mid",),
-    ),
-}
+# Columns that name the material of a shell's sheet, the decisive one first.
+_SHEET = ("mid2", "mid1")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,14 +55,9 @@ def inventory(structure: Structure, allowables: Mapping[int, float]) -> Inventor
     """
     cards = structure.deck.cards
     tables = [
-        _table(card, cards[card], [cards[card][c].to_numpy(np.int64) for c in columns])
-        for card, columns in _NODES.items()
-        if card in cards and len(cards[card])
-    ]
-    tables += [
-        _table(card, cards[card], _padded(cards[card]))
-        for card in _SOLIDS
-        if card in cards and len(cards[card])
+        _table(card, cards[card], grids_of(cards[card], topology))
+        for card, topology in topologies("line", "surface", "solid").items()
+        if card in cards and len(cards[card]) and _has_stress(card)
     ]
     if not tables:
         heads = ["id", "card", "pid", "component", "material", "x", "y", "z", "allowed"]
@@ -98,29 +78,25 @@ def sheet_material(row: Mapping[str, float], isotropic: Mapping[int, object]) ->
 
     That of bending, where the membrane is made stiffer by stringers smeared into it.
     """
-    for column in _MATERIAL["PSHELL"]:
+    for column in _SHEET:
         mid = row[column]
         if mid == mid and int(mid) in isotropic:
             return int(mid)
     return 0
 
 
-def _table(card: str, rows: pd.DataFrame, nodes: list[Int64]) -> pd.DataFrame:
+def _table(card: str, rows: pd.DataFrame, nodes: Int64) -> pd.DataFrame:
     pid = rows.pid if "pid" in rows else np.zeros(len(rows), np.int64)
     found = {"id": rows.eid, "card": card, "pid": pid}
     table = pd.DataFrame({**found, "file": rows.file, "line": rows.line})
-    table["nodes"] = list(np.column_stack(nodes))
+    # Mid-sides that are left out repeat the first grid.
+    table["nodes"] = list(np.where(nodes > 0, nodes, nodes[:, :1]))
     return table
 
 
-def _padded(rows: pd.DataFrame) -> list[Int64]:
-    """Grids of solids; midside ones that are left out repeat the first."""
-    longest = max(len(nodes) for nodes in rows.nodes)
-    full = [
-        [n or nodes[0] for n in [*nodes, *[0] * (longest - len(nodes))]]
-        for nodes in rows.nodes
-    ]
-    return list(np.array(full, np.int64).T)
+def _has_stress(card: str) -> bool:
+    element = CARDS[card].element
+    return any("stress" in r.kinds for r in element.results) if element else False
 
 
 def _placed(structure: Structure, table: pd.DataFrame) -> pd.DataFrame:
@@ -138,15 +114,11 @@ def _materials(cards: Mapping[str, pd.DataFrame]) -> dict[int, int]:
     """Property id -> id of the material that bears."""
     isotropic = dict.fromkeys(cards["MAT1"].mid.tolist())
     found: dict[int, int] = {}
-    for card, columns in _MATERIAL.items():
-        if card not in cards:
-            continue
-        for row in cards[card].to_dict("records"):
-            if card == "PSHELL":
-                mid = sheet_material(row, isotropic)
-            else:
-                mid = row.get(columns[0], 0) or 0
-            found[int(row["pid"])] = int(mid)
+    for name, card in TABLES.items():
+        if name in cards and {"pid", "mid"} <= card.columns.keys():
+            found.update(zip(cards[name].pid.astype(int), cards[name].mid.astype(int)))
+    for row in cards["PSHELL"].to_dict("records"):
+        found[int(row["pid"])] = sheet_material(row, isotropic)
     if "PCOMP" in cards:
         for row in cards["PCOMP"].to_dict("records"):
             sheets = [int(m) for m in row["mids"] if int(m) in isotropic]

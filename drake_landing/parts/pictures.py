@@ -6,7 +6,6 @@ Drawn off-screen by VTK; where that is not possible, there is a sentence instead
 import os
 import subprocess
 import sys
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -18,6 +17,7 @@ import pandas as pd
 
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.stress_watch import Snapshot
+from fem.deck.grids import corners_of
 from fem.model.structure import Structure
 
 if TYPE_CHECKING:
@@ -30,9 +30,6 @@ SIZE = (1500, 900)  # pixels
 _DEFORMATION = 0.05  # of the airframe's size: largest displacement in a picture
 _CLOSE = 0.09  # of the airframe's size: half height of a close-up
 _TOP = 0.995  # share of elements below the end of the colour scale
-_FACES = {"CQUAD4": ("g1", "g2", "g3", "g4"), "CTRIA3": ("g1", "g2", "g3"),
-          "CSHEAR": ("g1", "g2", "g3", "g4")}  # fmt: skip
-_LINES = {"CBAR": ("ga", "gb"), "CBEAM": ("ga", "gb"), "CROD": ("g1", "g2")}
 _TRY = (
     "import pyvista as v; p = v.Plotter(off_screen=True); p.screenshot(None); p.close()"
 )
@@ -94,8 +91,8 @@ def stress_field(
     largest = float(np.linalg.norm(u, axis=1).max())
     factor = _round(_DEFORMATION * size / largest) if largest > 0.0 else 1.0
     p = points.xyz + factor * u
-    faces, face_id = _cells(structure, _FACES, chosen, stress.index)
-    lines, line_id = _cells(structure, _LINES, chosen, stress.index)
+    faces, face_id = _cells(structure, "surface", chosen, stress.index)
+    lines, line_id = _cells(structure, "line", chosen, stress.index)
     own = [row for row, e in zip((*faces, *lines), (*face_id, *line_id))
            if e == snapshot.element]  # fmt: skip
     worst = p[own[0]] if own else p.mean(axis=0)[None]
@@ -256,24 +253,18 @@ def _rigid_part(structure: Structure, u_f: Float64, p: Float64) -> Float64:
 
 def _cells(
     structure: Structure,
-    cards: Mapping[str, tuple[str, ...]],
+    kind: str,
     chosen: frozenset[int] | None,
     known: pd.Index,
 ) -> tuple[list[Int64], Int64]:
     """Rows of the grids of elements, and element ids."""
     grid_id, rows, ids = structure.points.grid_id, [], []
-    for card, columns in cards.items():
-        table = structure.deck.cards.get(card)
-        if table is None or not len(table):
-            continue
-        table = table[table.eid.isin(known)]
+    for table, corners in corners_of(structure.deck.cards, kind).values():
+        keep = table.eid.isin(known)
         if chosen is not None:
-            table = table[table.eid.isin(chosen)]
-        if not len(table):
-            continue
-        nodes = table[list(columns)].to_numpy(np.int64)
-        rows += list(np.searchsorted(grid_id, nodes))
-        ids.append(table.eid.to_numpy(np.int64))
+            keep &= table.eid.isin(chosen)
+        rows += list(np.searchsorted(grid_id, corners[keep]))
+        ids.append(table.eid[keep].to_numpy(np.int64))
     return rows, np.concatenate(ids) if ids else np.zeros(0, np.int64)
 
 

@@ -1,6 +1,6 @@
 """What a deck looks like: faces and lines between grids, by component."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -8,36 +8,13 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.show.comments import component_names, read_names
+from fem.deck.grids import corners_of
+from fem.deck.records import topologies
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
-_SHELLS = {
-    "CQUAD4": ("g1", "g2", "g3", "g4"),
-    "CSHEAR": ("g1", "g2", "g3", "g4"),
-    "CTRIA3": ("g1", "g2", "g3"),
-}
-_LINES = {
-    "CBAR": ("ga", "gb"),
-    "CBEAM": ("ga", "gb"),
-    "CBUSH": ("ga", "gb"),
-    "CROD": ("g1", "g2"),
-    "CTUBE": ("g1", "g2"),
-    "CVISC": ("g1", "g2"),
-    "CELAS1": ("g1", "g2"),
-    "CELAS2": ("g1", "g2"),
-    "PLOTEL": ("g1", "g2"),
-}
-_SOLID_FACES = {
-    "CHEXA": (
-        *((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4)),
-        *((1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
-    ),
-    "CPENTA": ((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
-    "CPYRAM": ((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
-    "CTETRA": ((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
-}
 RIGID = "rigid elements"
 
 
@@ -79,7 +56,7 @@ class DrawnMesh:
 def drawn_mesh(structure: Structure) -> DrawnMesh:
     """Faces and lines of a structure by component."""
     cards, grid_id = structure.deck.cards, structure.points.grid_id
-    faces = pd.concat([_shells(cards), _outer_faces(cards), _lines(cards)])
+    faces = pd.concat([*_flat(cards), _outer_faces(cards)])
     if len(faces):
         names = read_names(faces.file.unique())
         faces["name"] = component_names(names, faces)
@@ -119,34 +96,23 @@ def _table(card: str, rows: pd.DataFrame, nodes: list[tuple[int, ...]]) -> pd.Da
     ).assign(nodes=pd.Series(nodes, index=rows.index, dtype=object))
 
 
-def _shells(cards: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    return pd.concat(
-        _table(card, cards[card], _rows(cards[card], corners))
-        for card, corners in _SHELLS.items()
-    )
+def _flat(cards: Mapping[str, pd.DataFrame]) -> Iterator[pd.DataFrame]:
+    """Shells and lines; not those to the ground or to scalar points."""
+    for card, (rows, corners) in corners_of(cards, "surface", "line", "spring").items():
+        between = (corners > 0).all(axis=1)
+        yield _table(card, rows[between], _tuples(corners[between]))
 
 
-def _lines(cards: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
-    tables = []
-    for card, ends in _LINES.items():
-        rows = cards[card]
-        rows = rows[(rows[list(ends)].to_numpy(np.int64) > 0).all(axis=1)]
-        tables.append(_table(card, rows, _rows(rows, ends)))
-    return pd.concat(tables)
-
-
-def _rows(table: pd.DataFrame, columns: tuple[str, ...]) -> list[tuple[int, ...]]:
-    return list(map(tuple, table[list(columns)].to_numpy(np.int64).tolist()))
+def _tuples(corners: Int64) -> list[tuple[int, ...]]:
+    return list(map(tuple, corners.tolist()))
 
 
 def _outer_faces(cards: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     """Faces of solids that belong to one element alone."""
-    tables = []
-    for card, faces in _SOLID_FACES.items():
-        rows = cards[card]
-        for face in faces:
-            nodes = [tuple(int(n[i]) for i in face) for n in rows.nodes]
-            tables.append(_table(card, rows, nodes))
+    tables = [_table("", pd.DataFrame(columns=["file", "line"]), [])]
+    for card, (rows, corners) in corners_of(cards, "solid").items():
+        for face in topologies("solid")[card].faces:
+            tables.append(_table(card, rows, _tuples(corners[:, face])))
     table = pd.concat(tables)
     key = table.nodes.map(lambda nodes: tuple(sorted(nodes)))
     return table.loc[~key.duplicated(keep=False)]

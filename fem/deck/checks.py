@@ -6,15 +6,17 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Int64
-from fem.deck import catalogue
 from fem.deck.cleanup import ids
 from fem.deck.deck import Deck
+from fem.deck.records import CARDS, TABLES, static_loads, targets_of
+from fem.deck.records.field import Field
 from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 
 Tables = Mapping[str, pd.DataFrame]
 
 _MOST = 20  # problems of one kind that are listed
+_WORDS = {"GRID": "grid", "POINT": "point", "CORD": "coordinate system"}
 
 
 def check(deck: Deck) -> list[str]:
@@ -23,10 +25,7 @@ def check(deck: Deck) -> list[str]:
     problems = _no_points(deck) + _duplicates(tables)
     if problems:
         return problems
-    problems += _grids(tables) + _properties(tables) + _materials(tables)
-    problems += _frames(tables) + _loaded(tables)
-    known = tables["TABLED1"]["tid"].to_numpy(np.int64)
-    problems += _missing(tables, "TLOAD1", "tid", known, "TABLED1")
+    problems += _references(tables)
     if not problems:
         try:
             resolve(tables["CORD"], tables["GRID"])
@@ -43,18 +42,13 @@ def _no_points(deck: Deck) -> list[str]:
 
 def _duplicates(cards: Tables) -> list[str]:
     """Ids that are given more than once."""
-    groups: list[tuple[str, tuple[str, ...]]] = [
-        ("id", ("GRID", "SPOINT")),
-        ("cid", ("CORD",)),
-        ("mid", ("MAT1", "MAT2", "MAT8", "MAT9")),
-        ("pid", ("PSHELL", "PCOMP")),
-        ("tid", ("TABLED1",)),
-        ("sid", ("TSTEP",)),
-        *(("eid", (name,)) for name in catalogue.ELEMENTS),
-        *(("pid", (name,)) for name in catalogue.SINGLE_PROPERTIES),
-    ]
+    groups: dict[str, list[str]] = {}
+    for name, card in TABLES.items():
+        if card.ids:
+            groups.setdefault(name if card.ids == "own" else card.ids, []).append(name)
     problems: list[str] = []
-    for column, names in groups:
+    for names in groups.values():
+        column = key_of(names[0])
         table = pd.concat(
             [cards[n][[column, "file", "line"]].assign(card=n) for n in names]
         )
@@ -64,6 +58,11 @@ def _duplicates(cards: Tables) -> list[str]:
                 "more than once"
             )
     return problems
+
+
+def key_of(name: str) -> str:
+    """Name of the column with the ids of a table."""
+    return next(iter(TABLES[name].columns))
 
 
 def _flat(values: pd.Series) -> tuple[Int64, Int64]:
@@ -105,63 +104,31 @@ def _missing(
     return problems
 
 
-def _grids(tables: Tables) -> list[str]:
-    grids = tables["GRID"]["id"].to_numpy(np.int64)
-    points = np.concatenate([grids, tables["SPOINT"]["id"].to_numpy(np.int64)])
+def _references(tables: Tables) -> list[str]:
+    """Ids that a card refers to and no card has."""
     problems: list[str] = []
-    for name, columns in catalogue.GRIDS.items():
-        for column in columns.split():
-            scalar, blank = column.endswith("?"), column.endswith(("?", "-"))
-            known = points if scalar else grids
-            what = "point" if scalar else "grid"
-            problems += _missing(
-                tables, name, column.rstrip("?-"), known, what, blank=blank
-            )
+    for name, card in TABLES.items():
+        for item in card.columns.values():
+            if item.targets:
+                names = [t for word in item.targets for t in targets_of(word)]
+                known = np.concatenate([ids(tables, [t], key_of(t)) for t in names])
+                problems += _missing(
+                    tables, name, item.name, known, _what(item), blank=item.blank
+                )
     return problems
 
 
-def _properties(tables: Tables) -> list[str]:
-    problems: list[str] = []
-    for name, targets in catalogue.PROPERTIES.items():
-        known = ids(tables, targets, "pid")
-        what = " or ".join(targets)
-        problems += _missing(tables, name, "pid", known, what)
-    return problems
-
-
-def _materials(tables: Tables) -> list[str]:
-    problems: list[str] = []
-    for name, (columns, targets) in catalogue.MATERIALS.items():
-        known = ids(tables, targets, "mid")
-        for column in columns:
-            what = " or ".join(targets)
-            problems += _missing(tables, name, column, known, what)
-    return problems
-
-
-def _frames(tables: Tables) -> list[str]:
-    known = tables["CORD"]["cid"].to_numpy(np.int64)
-    problems: list[str] = []
-    for name, columns in catalogue.FRAMES.items():
-        for column in columns:
-            problems += _missing(tables, name, column, known, "coordinate system")
-    return problems
-
-
-def _loaded(tables: Tables) -> list[str]:
-    problems: list[str] = []
-    for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
-        known = ids(tables, targets, "eid")
-        what = f"element ({', '.join(targets)})"
-        problems += _missing(tables, name, column, known, what)
-    return problems
+def _what(item: Field) -> str:
+    """What a reference should name, in words."""
+    word = _WORDS.get(item.targets[0])
+    names = [t for word in item.targets for t in targets_of(word)]
+    if word is None and all(CARDS[name].element for name in names):
+        word = f"element ({', '.join(names)})"
+    return word or " or ".join(names)
 
 
 STATIC_LOADS = tuple(
-    """
-    FORCE MOMENT FORCE1 MOMENT1 FORCE2 MOMENT2 SLOAD PLOAD PLOAD1 PLOAD2 PLOAD4
-    GRAV ACCEL1 RFORCE SPCD
-    """.split()
+    card.name for card in static_loads.RECORDS if card.has_table and card.name != "LOAD"
 )
 
 

@@ -1,13 +1,13 @@
 """What is taken out of the tables before they are checked, each with a notice."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.deck import catalogue
 from fem.deck.lexer import RawCard
+from fem.deck.records import CARDS, TABLES, targets_of
 from fem.deck.values import Malformed, integer
 
 Tables = dict[str, pd.DataFrame]
@@ -68,7 +68,7 @@ def _drop_loads_on(
     eids: npt.NDArray[np.int64], tables: Tables, notices: list[str]
 ) -> None:
     """Loads on ignored elements go with them."""
-    for name, (column, targets) in catalogue.LOADED_ELEMENTS.items():
+    for name, column, targets in _loaded_elements():
         table = tables[name]
         lost = eids[~np.isin(eids, ids(tables, targets, "eid"))]
         if table.empty or not len(lost):
@@ -78,3 +78,12 @@ def _drop_loads_on(
             tables[name] = table[keep].reset_index(drop=True)
             count = int((~keep).sum())
             notices.append(f"{count} {name} on ignored elements are left out")
+
+
+def _loaded_elements() -> Iterator[tuple[str, str, list[str]]]:
+    """Loads, their columns of elements, and the tables that these may be in."""
+    for name, card in TABLES.items():
+        for item in card.columns.values():
+            targets = [t for word in item.targets for t in targets_of(word)]
+            if card.load and targets and all(CARDS[t].element for t in targets):
+                yield name, item.name, targets

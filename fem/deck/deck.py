@@ -17,7 +17,8 @@ class Deck:
 
     Attributes:
         path: the main file.
-        cards: one table per card name of `fem.deck.schema`, empty ones included.
+        cards: one table per record of `fem.deck.records.TABLES`, empty ones
+            included.
         params: parameters that the deck gives, capitals; see `param` for defaults.
         case_control: subcases in order, the global section applied to each; a deck
             without subcases has one with id 1.

@@ -1,7 +1,7 @@
 """Nastran decks to `Deck`, and the one place that talks to pyNastran.
 
 Text is cut into cards here, with file and line, so that messages say where; cards of
-irregular shape (EXTERNAL below) are given to pyNastran's card classes one by one, so
+irregular shape (_CLASSES below) are given to pyNastran's card classes one by one, so
 that one faulty card hides no other. All problems of a deck are reported at once.
 """
 
@@ -19,7 +19,6 @@ from pyNastran.bdf.cards.properties.bush import PBUSH
 from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
 
 from fem.arrays import Int64
-from fem.deck.cards.from_pynastran import EXTRACTORS
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import check, check_selected
@@ -29,9 +28,10 @@ from fem.deck.executive import read_executive
 from fem.deck.fields import Fields
 from fem.deck.lexer import Bulk, RawCard, read_cards
 from fem.deck.parameters import read_parameters
+from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
-from fem.deck.tables import RowReader, layouts_and_lists, make_tables, supported
+from fem.deck.tables import make_tables
 from fem.deck.values import Malformed
 from fem.errors import InputError, nearest
 
@@ -46,27 +46,25 @@ _CLASSES: dict[str, Any] = {
 }
 
 
-def _external(name: str) -> Callable[[RawCard], list[dict[str, Any]]]:
-    parse, extract = _CLASSES[name].add_card, EXTRACTORS[name]
-
-    def read(card: RawCard) -> list[dict[str, Any]]:
-        fields = [field or None for field in card.fields]
-        while fields[-1] is None:
-            fields.pop()
-        try:
-            return extract(parse(BDFCard(fields, has_none=False)))
-        except Malformed:
-            raise
-        # pyNastran raises whatever its card classes meet in a faulty card.
-        except Exception as error:
-            text = " ".join(str(error).split("\n")[0].split())
-            raise Malformed(text or "is incomplete") from None
-
-    return read
+def _external(
+    card: RawCard, extract: Callable[[Any], list[dict[str, Any]]]
+) -> list[dict[str, Any]]:
+    """Rows of a card from pyNastran's object."""
+    fields = [field or None for field in card.fields]
+    while fields[-1] is None:
+        fields.pop()
+    try:
+        return extract(_CLASSES[card.name].add_card(BDFCard(fields, has_none=False)))
+    except Malformed:
+        raise
+    # pyNastran raises whatever its card classes meet in a faulty card.
+    except Exception as error:
+        text = " ".join(str(error).split("\n")[0].split())
+        raise Malformed(text or "is incomplete") from None
 
 
-EXTERNAL: dict[str, RowReader] = {name: _external(name) for name in _CLASSES}
-SUPPORTED: tuple[str, ...] = tuple(sorted({*layouts_and_lists(), *EXTERNAL, "PARAM"}))
+_READABLE = frozenset(name for name, card in CARDS.items() if card.readable)
+SUPPORTED: tuple[str, ...] = tuple(sorted({*_READABLE, "PARAM"}))
 
 
 def read_deck(
@@ -151,7 +149,7 @@ def _deck(
         groups.setdefault(card.name, []).append(card)
     params = read_parameters(groups.pop("PARAM", []), case.params, problems, notices)
     ignored = _set_aside(groups, ignore, problems, notices)
-    tables = make_tables(groups, EXTERNAL, problems, notices)
+    tables = make_tables(groups, _external, problems, notices)
     deck = Deck(
         path=path,
         cards=tables,
@@ -188,7 +186,7 @@ def _set_aside(
             cards = groups.pop(name)
             ignored += cards
             notices.append(f"{_lines(name, cards)} ignored on request")
-        elif not supported(name, EXTERNAL):
+        elif name not in _READABLE:
             cards = groups.pop(name)
             if name in WITHOUT_EFFECT:
                 unused.append(f"{name} ({len(cards)})")

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.deck.schema import ALIASES, COLUMNS
+from fem.deck.records import TABLES, table_of
 from fem.errors import InputError
 
 if TYPE_CHECKING:
@@ -15,12 +15,11 @@ if TYPE_CHECKING:
 
 
 def table(deck: "Deck", card: str) -> pd.DataFrame:
-    """The table of a card; empty with the schema's columns where the deck has none."""
+    """The table of a card; empty with its columns where the deck has none."""
     found = deck.cards.get(card)
     if found is not None:
         return found
-    columns = [name.rstrip("*") for name in COLUMNS[card].split()]
-    return pd.DataFrame(columns=[*columns, "file", "line"])
+    return pd.DataFrame(columns=[*TABLES[card].columns, "file", "line"])
 
 
 def column(rows: pd.DataFrame, name: str) -> npt.NDArray[np.float64]:
@@ -36,7 +35,7 @@ def where(card: str, row: pd.Series) -> str:
 
 def id_column(card: str) -> str:
     """Name of the column with the id of a card: "eid", "pid", "sid" ..."""
-    return COLUMNS[ALIASES.get(card, card)].split()[0]
+    return next(iter(TABLES[table_of(card)].columns))
 
 
 def refer(

@@ -1,19 +1,10 @@
-"""Cards whose fields stand at fixed places, described by one line of text each.
-
-A description lists the fields in order: `name:type` is required, `name:type=default`
-may be blank; a default may be the name of an earlier field. Types: i integer, f real,
-c component digits, s word, u integer or real. `-` is a field that is not used. Fields
-in parentheses repeat, in groups, to the end of the card; each group becomes a row.
-"""
+"""Cards whose fields stand at fixed places, see `fem.deck.records.field`."""
 
 import math
-import re
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import cache
-from typing import Any
 
 from fem.deck.lexer import RawCard
+from fem.deck.records.field import Field, Layout, layout
 from fem.deck.values import CONVERTERS, Malformed
 
 _EXPECTED = {
@@ -23,54 +14,6 @@ _EXPECTED = {
     "s": "a word",
     "u": "an integer or a real number",
 }
-
-
-@dataclass(frozen=True)
-class Field:
-    """One field of a description; `default` None: required."""
-
-    name: str
-    kind: str
-    default: Any = None
-
-
-@dataclass(frozen=True)
-class Layout:
-    """Fields before the parentheses, fields within them."""
-
-    fixed: tuple[Field, ...]
-    repeated: tuple[Field, ...]
-
-
-@cache
-def layout(text: str) -> Layout:
-    """The description of a card, parsed."""
-    fixed, _, repeated = text.partition("(")
-    return Layout(_fields(fixed), _fields(repeated.rstrip(" )")))
-
-
-def _fields(text: str) -> tuple[Field, ...]:
-    fields = []
-    for item in text.split():
-        if item == "-":
-            fields.append(Field("-", "-"))
-            continue
-        match = re.fullmatch(r"(\w+):(\w)(?:=(.*))?", item)
-        assert match is not None, item
-        name, kind, default = match.groups()
-        fields.append(Field(name, kind, _default(kind, default)))
-    return tuple(fields)
-
-
-def _default(kind: str, text: str | None) -> Any:
-    """The default of a field; a tuple names an earlier field."""
-    if text is None or kind in "sc":
-        return text
-    if text == "nan":
-        return math.nan
-    if re.match(r"[a-z]", text):
-        return (text,)
-    return CONVERTERS[kind](text)
 
 
 def read_regular(

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from fem.arrays import Float64, Int64
 from fem.elements.connectivity import element_grids
 from fem.files.aside import written_aside
-from fem.files.op2_elements import FORCES, PLIES, STRESSES, Elements, ply_words, words
+from fem.files.op2_elements import Elements, layout_of, plies_of, ply_words, words
 from fem.files.op2_records import DEVICE, MODAL, STATIC, TRANSIENT, Kind, Op2File, State
 from fem.files.reading import ElementResult, PointResult, Solution, solutions
 from fem.model.structure import Structure
@@ -149,22 +149,22 @@ def _element_series(
     ]
     for name, (table, ply_table, code, stress, ply_stress) in _ELEMENTS.items():
         for card, result in solution.elements(name).items():
-            if card in PLIES:
+            if plies := plies_of(card):
                 kind = Kind(
                     table=ply_table,
                     code=code,
-                    element=PLIES[card],
+                    element=plies,
                     width=11,
                     stress=ply_stress,
                 )
                 series.append(_Series(kind, _plies(solution, result)))
                 continue
-            maker = (FORCES if name == "element_force" else STRESSES).get(card)
-            if maker is None:
+            grids = _grids_of(structure, card, result.id)
+            elements = Elements(id=result.id, grids=grids, columns=result.columns)
+            layout = layout_of(card, name.removeprefix("element_"), elements)
+            if layout is None:
                 left.append(f"{name} of {card}")
                 continue
-            grids = _grids_of(structure, card, result.id)
-            layout = maker(Elements(id=result.id, grids=grids, columns=result.columns))
 
             def words_of(
                 k: int, result: ElementResult = result, layout=layout

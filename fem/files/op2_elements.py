@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.arrays import Float64, Int64
+from fem.deck.records import CARDS, Op2
 from fem.files.op2_records import DEVICE
 
 Float32 = npt.NDArray[np.float32]
@@ -65,9 +66,6 @@ class Layout:
         return len(self.cells)
 
 
-Maker = Callable[[Elements], Layout]
-
-
 def words(layout: Layout, columns: Sequence[str], values: Float64) -> Float32:
     """(e, w) words of results (e, c)."""
     at = {name: k for k, name in enumerate(columns)}
@@ -87,127 +85,104 @@ def _device(elements: Elements) -> Int64:
     return 10 * elements.id + DEVICE
 
 
-def simple(number: int) -> Maker:
+def _simple(op2: Op2, e: Elements) -> Layout:
     """The id, then all columns as they come."""
-    return lambda e: Layout(type=number, cells=[_device(e), *e.columns])
+    return Layout(type=op2.type, cells=[_device(e), *e.columns])
 
 
-def _rod_stress(number: int) -> Maker:
-    def make(e: Elements) -> Layout:
-        first, second = e.columns
-        cells = [_device(e), first, NO_MARGIN, second, NO_MARGIN]
-        return Layout(type=number, cells=cells)
-
-    return make
+def _rod_stress(op2: Op2, e: Elements) -> Layout:
+    first, second = e.columns
+    cells = [_device(e), first, NO_MARGIN, second, NO_MARGIN]
+    return Layout(type=op2.type, cells=cells)
 
 
-def _shear_stress(e: Elements) -> Layout:
-    return Layout(type=4, cells=[_device(e), *e.columns, NO_MARGIN])
+def _panel_stress(op2: Op2, e: Elements) -> Layout:
+    return Layout(type=op2.type, cells=[_device(e), *e.columns, NO_MARGIN])
 
 
-def _bar_stress(e: Elements) -> Layout:
+def _bar_stress(op2: Op2, e: Elements) -> Layout:
     c = e.columns  # four points, axial, extremes at A; four points, extremes at B
     cells = [_device(e), *c[:7], NO_MARGIN, *c[7:], NO_MARGIN]
-    return Layout(type=34, cells=cells)
+    return Layout(type=op2.type, cells=cells)
 
 
-def _beam(per_end: int, margins: int) -> Maker:
-    """Eleven stations, of which the ends have results."""
-
-    def make(e: Elements) -> Layout:
-        half = len(e.columns) // 2
-        empty: list[Cell] = [np.zeros(1, np.int64), *[0.0] * (1 + per_end + margins)]
-        ends: list[list[Cell]] = []
-        for k, place in enumerate((0.0, 1.0)):
-            own = e.columns[k * half : (k + 1) * half]
-            ends.append([e.grids[:, k], place, *own, *[NO_MARGIN] * margins])
-        cells = [_device(e), *ends[0], *empty * 9, *ends[1]]
-        return Layout(type=2, cells=cells)
-
-    return make
+def _beam(op2: Op2, e: Elements) -> Layout:
+    """Eleven stations, of which the ends have results; stresses with two margins."""
+    half = len(e.columns) // 2
+    margins = 2 if "smax_a" in e.columns else 0
+    empty: list[Cell] = [np.zeros(1, np.int64), *[0.0] * (1 + half + margins)]
+    ends: list[list[Cell]] = []
+    for k, place in enumerate((0.0, 1.0)):
+        own = e.columns[k * half : (k + 1) * half]
+        ends.append([e.grids[:, k], place, *own, *[NO_MARGIN] * margins])
+    cells = [_device(e), *ends[0], *empty * 9, *ends[1]]
+    return Layout(type=op2.type, cells=cells)
 
 
-def _plate(flat: int, bilinear: int) -> Maker:
+def _plate(op2: Op2, e: Elements) -> Layout:
     """The centre, or the centre and the corners with their grids."""
-
-    def make(e: Elements) -> Layout:
-        points, cells = e.points, [_device(e)]
-        if points == 1:
-            return Layout(type=flat, cells=[*cells, *e.columns])
-        per_point = len(e.columns) // points
-        cells.append(np.full(1, int.from_bytes(b"CEN/", "little")))
-        corners = points - 1
-        for k in range(points):
-            grid = np.full(1, corners) if k == 0 else e.grids[:, k - 1]
-            own = e.columns[k * per_point : (k + 1) * per_point]
-            cells += [grid, *own]
-        return Layout(type=bilinear, cells=cells)
-
-    return make
+    points, cells = e.points, [_device(e)]
+    if points == 1:
+        return Layout(type=op2.type, cells=[*cells, *e.columns])
+    per_point = len(e.columns) // points
+    cells.append(np.full(1, int.from_bytes(b"CEN/", "little")))
+    corners = points - 1
+    for k in range(points):
+        grid = np.full(1, corners) if k == 0 else e.grids[:, k - 1]
+        own = e.columns[k * per_point : (k + 1) * per_point]
+        cells += [grid, *own]
+    return Layout(type=op2.corners or op2.type, cells=cells)
 
 
-def _solid(number: int) -> Maker:
+def _solid(op2: Op2, e: Elements) -> Layout:
     """Centre and corners: stresses, principal ones, mean pressure, von Mises."""
-
-    def make(e: Elements) -> Layout:
-        points = e.points
-        grid_word = np.full(1, int.from_bytes(b"GRID", "little"))
-        cells: list[Cell] = [_device(e), np.zeros(1, np.int64), grid_word]
-        cells.append(np.full(1, points - 1))
-        none = [0.0, 0.0, 0.0]
-        for k in range(points):
-            xx, yy, zz, xy, yz, zx, major, mid, minor, mises = e.columns[
-                10 * k : 10 * k + 10
-            ]
-            grid = np.zeros(1, np.int64) if k == 0 else e.grids[:, k - 1]
-            cells += [grid, xx, xy, major, *none, 0.0, mises]
-            cells += [yy, yz, mid, *none, zz, zx, minor, *none]
-        return Layout(type=number, cells=cells)
-
-    return make
+    points = e.points
+    grid_word = np.full(1, int.from_bytes(b"GRID", "little"))
+    cells: list[Cell] = [_device(e), np.zeros(1, np.int64), grid_word]
+    cells.append(np.full(1, points - 1))
+    none = [0.0, 0.0, 0.0]
+    for k in range(points):
+        xx, yy, zz, xy, yz, zx, major, mid, minor, mises = e.columns[
+            10 * k : 10 * k + 10
+        ]
+        grid = np.zeros(1, np.int64) if k == 0 else e.grids[:, k - 1]
+        cells += [grid, xx, xy, major, *none, 0.0, mises]
+        cells += [yy, yz, mid, *none, zz, zx, minor, *none]
+    return Layout(type=op2.type, cells=cells)
 
 
-FORCES: dict[str, Maker] = {
-    "CROD": simple(1),
-    "CTUBE": simple(3),
-    "CONROD": simple(10),
-    "CBAR": simple(34),
-    "CBEAM": _beam(7, 0),
-    "CSHEAR": simple(4),
-    "CELAS1": simple(11),
-    "CELAS2": simple(12),
-    "CELAS3": simple(13),
-    "CELAS4": simple(14),
-    "CDAMP1": simple(20),
-    "CDAMP2": simple(21),
-    "CDAMP3": simple(22),
-    "CDAMP4": simple(23),
-    "CVISC": simple(24),
-    "CBUSH": simple(102),
-    "CTRIA3": _plate(74, 74),
-    "CQUAD4": _plate(33, 144),
+_ARRANGEMENTS: dict[str, Callable[[Op2, Elements], Layout]] = {
+    "simple": _simple,
+    "rod": _rod_stress,
+    "bar": _bar_stress,
+    "beam": _beam,
+    "panel": _panel_stress,
+    "plate": _plate,
+    "solid": _solid,
 }
-STRESSES: dict[str, Maker] = {
-    "CROD": _rod_stress(1),
-    "CTUBE": _rod_stress(3),
-    "CONROD": _rod_stress(10),
-    "CBAR": _bar_stress,
-    "CBEAM": _beam(6, 2),
-    "CSHEAR": _shear_stress,
-    "CELAS1": simple(11),
-    "CELAS2": simple(12),
-    "CELAS3": simple(13),
-    "CELAS4": simple(14),
-    "CBUSH": simple(102),
-    "CTRIA3": _plate(74, 74),
-    "CQUAD4": _plate(33, 144),
-    "CTETRA": _solid(39),
-    "CHEXA": _solid(67),
-    "CPENTA": _solid(68),
-    "CPYRAM": _solid(255),
-}
-# Plies: one row per element and ply.
-PLIES = {"CQUAD4_COMPOSITE": 95, "CTRIA3_COMPOSITE": 97}
+
+
+def layout_of(card: str, kind: str, elements: Elements) -> Layout | None:
+    """Words of the results of a card; None: there is no place for them.
+
+    Args:
+        card: table of the results, "CBAR".
+        kind: "force", "stress" or "strain".
+        elements: its elements and columns.
+    """
+    element = CARDS[card].element if card in CARDS else None
+    if element is None or element.op2 is None:
+        return None
+    name = element.op2.force if kind == "force" else element.op2.stress
+    return _ARRANGEMENTS[name](element.op2, elements) if name else None
+
+
+def plies_of(table: str) -> int:
+    """Element type of a table of plies, 0 for all others."""
+    card = CARDS.get(table.removesuffix("_COMPOSITE"))
+    if card is None or card.name == table or not card.element or not card.element.op2:
+        return 0
+    return card.element.op2.plies
 
 
 def ply_words(id: Int64, values: Float64) -> Float32:

@@ -17,23 +17,13 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.arrays import Float64, Int64
+from fem.deck.records import CARDS
 from fem.elements.connectivity import element_grids
 from fem.elements.stress_measures import plane_von_mises
 from fem.files.aside import written_aside
 from fem.files.reading import ElementResult, PointResult, Solution, solutions
 from fem.model.structure import Structure
 
-_VERTEX, _LINE, _TRIANGLE, _QUAD = 1, 3, 5, 9
-_SOLIDS = {
-    ("CTETRA", 4): 10,
-    ("CTETRA", 10): 24,
-    ("CHEXA", 8): 12,
-    ("CHEXA", 20): 25,
-    ("CPENTA", 6): 13,
-    ("CPENTA", 15): 26,
-    ("CPYRAM", 5): 14,
-}
-_FLAT = {1: _VERTEX, 2: _LINE, 3: _TRIANGLE, 4: _QUAD}
 _QUANTITIES = ("displacement", "shape", "velocity", "acceleration")
 
 
@@ -87,11 +77,11 @@ def _cells(structure: Structure) -> Cells:
         grids = element_grids(structure.points, block)
         if grids is None or not len(grids):
             continue
-        n = grids.shape[1]
-        vtk = _SOLIDS.get((block.card, n), _FLAT.get(n) if n <= 4 else None)
-        if vtk is None:
+        n, topology = grids.shape[1], CARDS[block.card].topology
+        vtk = topology.cell(n) if topology else None
+        if topology is None or vtk is None:
             continue
-        conn.append(_in_vtk_order(vtk, grids).ravel())
+        conn.append(grids[:, topology.order.get(n, range(n))].ravel())
         size.append(np.full(len(grids), n))
         kind.append(np.full(len(grids), vtk))
         ids.append(block.id)
@@ -101,15 +91,6 @@ def _cells(structure: Structure) -> Cells:
         *(np.concatenate(x or empty).astype(np.int64) for x in (conn, size, kind)),
         *(np.concatenate(x or empty).astype(np.int64) for x in (ids, pids)),
     )
-
-
-def _in_vtk_order(vtk: int, grids: Int64) -> Int64:
-    """Nastran's order of grids is VTK's but for the mid-sides of large solids."""
-    if vtk == _SOLIDS["CHEXA", 20]:
-        return grids[:, [*range(12), 16, 17, 18, 19, 12, 13, 14, 15]]
-    if vtk == _SOLIDS["CPENTA", 15]:
-        return grids[:, [*range(9), 12, 13, 14, 9, 10, 11]]
-    return grids
 
 
 def _write(

@@ -11,6 +11,8 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
+from fem.deck.grids import grids_of
+from fem.deck.records import Topology, topologies
 from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -18,32 +20,6 @@ from fem.loads.faces import Faces, face_forces
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
-
-
-_SHELLS = {"CQUAD4": 4, "CTRIA3": 3, "CSHEAR": 4}
-# Faces of solids: corners in turn, outward or inward; mid-sides by pairs of corners.
-_FACES: dict[str, tuple[tuple[int, ...], ...]] = {
-    "CHEXA": (
-        *((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4)),
-        *((1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
-    ),
-    "CPENTA": ((0, 1, 2), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
-    "CTETRA": ((0, 1, 2), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
-    "CPYRAM": ((0, 1, 2, 3), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
-}
-_EDGES: dict[str, tuple[tuple[int, int], ...]] = {
-    "CHEXA": (
-        *((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5)),
-        *((2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)),
-    ),
-    "CPENTA": (
-        *((0, 1), (1, 2), (2, 0), (0, 3), (1, 4), (2, 5)),
-        *((3, 4), (4, 5), (5, 3)),
-    ),
-    "CTETRA": ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
-    "CPYRAM": ((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
-}
-_CORNERS = {"CHEXA": 8, "CPENTA": 6, "CTETRA": 4, "CPYRAM": 5}
 
 
 @dataclass
@@ -117,11 +93,15 @@ def _pressure(
 ) -> tuple[Int64, Float64]:
     loads = _per_element(rows)
     found = {3: _Collected(), 4: _Collected()}
-    for name, n in _SHELLS.items():
-        _add_shells(deck.cards[name], n, loads, points, found[n])
+    for name, shape in topologies("surface").items():
+        elements, own = _matching(deck.cards[name], loads)
+        _add_shells(elements, shape, own, points, found[shape.corners])
     problems: list[str] = []
-    for name in _FACES:
-        _add_solids(deck.cards[name], name, loads, points, found, problems, card)
+    for name, shape in topologies("solid").items():
+        elements, own = _matching(deck.cards[name], loads)
+        if len(elements):
+            solids = _Solids(name, shape, elements)
+            _add_solids(solids, own, points, found, problems, card)
     if problems:
         raise InputError(problems)
     return _forces(points, found)
@@ -159,21 +139,20 @@ def _matching(
 
 
 def _add_shells(
-    table: pd.DataFrame,
-    n: int,
+    elements: pd.DataFrame,
+    shape: Topology,
     loads: pd.DataFrame,
     points: Points,
     found: _Collected,
 ) -> None:
-    elements, loads = _matching(table, loads)
     if elements.empty:
         return
-    corners = elements[[f"g{k + 1}" for k in range(n)]].to_numpy(np.int64)
+    grids, n = grids_of(elements, shape), shape.corners
+    corners, middles = grids[:, :n], np.zeros((len(grids), n), np.int64)
+    middles[:, : grids.shape[1] - n] = grids[:, n : 2 * n]
     pressure = loads[[f"p{k + 1}" for k in range(n)]].to_numpy(np.float64)
     centre = points.xyz[points.rows(corners)].mean(axis=1)
-    found.add(
-        corners, np.zeros_like(corners), pressure, _directions(loads, points, centre)
-    )
+    found.add(corners, middles, pressure, _directions(loads, points, centre))
 
 
 def _directions(loads: pd.DataFrame, points: Points, at: Float64) -> Float64:
@@ -186,60 +165,65 @@ def _directions(loads: pd.DataFrame, points: Points, at: Float64) -> Float64:
     return np.where(length > 0.0, basic / safe, np.nan)
 
 
+@dataclass(frozen=True)
+class _Solids:
+    """Loaded elements of one card."""
+
+    card: str
+    shape: Topology
+    rows: pd.DataFrame
+
+
 def _add_solids(
-    table: pd.DataFrame,
-    name: str,
+    solids: _Solids,
     loads: pd.DataFrame,
     points: Points,
     found: dict[int, _Collected],
     problems: list[str],
     card: str,
 ) -> None:
-    elements, loads = _matching(table, loads)
-    if elements.empty:
-        return
-    nodes_of = list(elements["nodes"])
-    centres = np.array(
-        [points.xyz[points.rows(n[: _CORNERS[name]])].mean(axis=0) for n in nodes_of]
-    )
+    shape = solids.shape
+    nodes_of = grids_of(solids.rows, shape)
+    centres = points.xyz[points.rows(nodes_of[:, : shape.corners])].mean(axis=1)
     directions = _directions(loads, points, centres)
     given = loads[["g1", "g34"]].to_numpy(np.int64)
     pressures = loads[["p1", "p2", "p3", "p4"]].to_numpy(np.float64)
     for k, nodes in enumerate(nodes_of):
-        face = _face(name, nodes, *given[k].tolist())
+        face = _face(shape, nodes, *given[k].tolist())
         if face is None:
             row = loads.iloc[k]
             problems.append(
                 f"{where(card, row)}: grids {given[k, 0]}, {given[k, 1]} name no face "
-                f"of {name} {row['eid']}"
+                f"of {solids.card} {row['eid']}"
             )
             continue
         face = _inward(face, nodes, int(given[k, 0]), centres[k], points)
         middles = [
-            _middle(name, nodes, a, b) for a, b in zip(face, face[1:] + face[:1])
+            _middle(shape, nodes, a, b) for a, b in zip(face, face[1:] + face[:1])
         ]
         n = len(face)
         found[n].add(nodes[list(face)], middles, pressures[k, :n], directions[k])
 
 
-def _face(name: str, nodes: Int64, g1: int, g34: int) -> tuple[int, ...] | None:
+def _face(shape: Topology, nodes: Int64, g1: int, g34: int) -> tuple[int, ...] | None:
     """The face that PLOAD4 means by G1 and G3 or G4."""
-    corners = nodes[: _CORNERS[name]].tolist()
+    corners = nodes[: shape.corners].tolist()
     if g1 not in corners or (g34 and g34 not in corners):
         return None
     a = corners.index(g1)
     b = corners.index(g34) if g34 else -1
-    for face in _FACES[name]:
+    for face in shape.faces:
         if a not in face:
             continue
-        if name == "CTETRA":
-            chosen = b >= 0 and b not in face
-        elif len(face) == 3 and name == "CPENTA":
-            chosen = b < 0
-        elif len(face) == 3:  # a pyramid's side, by its two grids at the base
-            chosen = b in face and 4 not in (a, b) and _next_to(a, b)
-        else:
+        if len(face) == 4:
             chosen = b in face and abs(face.index(a) - face.index(b)) == 2
+        elif shape.triangles == "opposite":
+            chosen = b >= 0 and b not in face
+        elif shape.triangles == "alone":
+            chosen = b < 0
+        else:
+            base = set(shape.faces[0])
+            chosen = b in face and {a, b} <= base and _next_to(a, b)
         if chosen:
             return face
     return None
@@ -262,9 +246,7 @@ def _inward(
     return face[first:] + face[:first]
 
 
-def _middle(name: str, nodes: Int64, a: int, b: int) -> int:
+def _middle(shape: Topology, nodes: Int64, a: int, b: int) -> int:
     """Grid id of the mid-side between two corners, 0 if there is none."""
-    edges = _EDGES[name]
-    edge = (a, b) if (a, b) in edges else (b, a)
-    index = _CORNERS[name] + edges.index(edge)
+    index = shape.middle(a, b)
     return int(nodes[index]) if index < len(nodes) else 0

@@ -6,12 +6,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem.deck.schema import COLUMNS
+from fem.deck.records import TABLES
 from fem.errors import InputError
 from fem.geometry.coordinates import BASIC, Frame, Frames, frame_from_points, resolve
 
-CORD = COLUMNS["CORD"].split()
-GRID = COLUMNS["GRID"].split()
+CORD = list(TABLES["CORD"].columns)
+GRID = list(TABLES["GRID"].columns)
 
 
 def cord2(cid: int, kind: str, rid: int, abc) -> dict:

@@ -4,7 +4,6 @@ Each function takes the columns of one card name and changes them in place; what
 wrong is appended to `problems`.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 from fem.deck.values import Malformed, real
@@ -24,7 +23,7 @@ def _place(columns: Columns, row: int) -> str:
     return f"{columns['file'][row]}:{columns['line'][row]}"
 
 
-def _orientation(columns: Columns, problems: Problems) -> None:
+def orientation(columns: Columns, problems: Problems) -> None:
     """X1 is a grid where it is an integer (CBAR, CBEAM, CBUSH)."""
     x1 = columns["x1"]
     columns["g0"] = [x if isinstance(x, int) else 0 for x in x1]
@@ -35,12 +34,12 @@ def _orientation(columns: Columns, problems: Problems) -> None:
         ]
 
 
-def _beam(columns: Columns, problems: Problems) -> None:
+def beam(columns: Columns, problems: Problems) -> None:
     """OFFT is a name; a real number there is BIT, which belongs to p-elements.
 
     Old decks have a flag there: 1 for a vector, 2 for a grid in the fields before it.
     """
-    _orientation(columns, problems)
+    orientation(columns, problems)
     columns["offt"] = ["GGG" if o in ("1", "2") else o for o in columns["offt"]]
     for row, offt in enumerate(columns["offt"]):
         try:
@@ -54,22 +53,22 @@ def _beam(columns: Columns, problems: Problems) -> None:
         )
 
 
-def _shell(columns: Columns, problems: Problems) -> None:
+def shell(columns: Columns, problems: Problems) -> None:
     """THETA is a coordinate system where it is an integer."""
     theta = columns["theta"]
     columns["mcid"] = [t if isinstance(t, int) else -1 for t in theta]
     columns["theta"] = [0.0 if isinstance(t, int) else t for t in theta]
 
 
-def _tload(columns: Columns, problems: Problems) -> None:
+def tload(columns: Columns, problems: Problems) -> None:
     delay = columns["delay"]
     columns["delayid"] = [d if isinstance(d, int) else 0 for d in delay]
     columns["delay"] = [0.0 if isinstance(d, int) else d for d in delay]
     _named_type(columns, problems)
 
 
-def _tload1(columns: Columns, problems: Problems) -> None:
-    _tload(columns, problems)
+def tload1(columns: Columns, problems: Problems) -> None:
+    tload(columns, problems)
     for row, tid in enumerate(columns["tid"]):
         if not isinstance(tid, int):
             problems.append(
@@ -90,30 +89,30 @@ def _named_type(columns: Columns, problems: Problems) -> None:
     columns["type"] = [_LOAD_TYPES.get(name, "LOAD") for name in types]
 
 
-def _scalar(columns: Columns, problems: Problems) -> None:
+def scalar(columns: Columns, problems: Problems) -> None:
     """CELAS3 and its like connect scalar points: component 0."""
     count = len(columns["eid"])
     columns["c1"], columns["c2"] = [0] * count, [0] * count
 
 
-def _celas4(columns: Columns, problems: Problems) -> None:
-    _scalar(columns, problems)
+def celas4(columns: Columns, problems: Problems) -> None:
+    scalar(columns, problems)
     count = len(columns["eid"])
     columns["ge"], columns["s"] = [0.0] * count, [0.0] * count
 
 
-def _crod(columns: Columns, problems: Problems) -> None:
+def crod(columns: Columns, problems: Problems) -> None:
     count = len(columns["eid"])
     columns.update(
         mid=[0] * count, **{k: [0.0] * count for k in ("a", "j", "c", "nsm")}
     )
 
 
-def _conrod(columns: Columns, problems: Problems) -> None:
+def conrod(columns: Columns, problems: Problems) -> None:
     columns["pid"] = [0] * len(columns["eid"])
 
 
-def _ptube(columns: Columns, problems: Problems) -> None:
+def ptube(columns: Columns, problems: Problems) -> None:
     columns["t"] = [
         t if t == t and t else d / 2 for t, d in _pairs(columns, "t", "od1")
     ]
@@ -123,14 +122,14 @@ def _pairs(columns: Columns, a: str, b: str) -> list[tuple[Any, Any]]:
     return list(zip(columns[a], columns[b]))
 
 
-def _eigr(columns: Columns, problems: Problems) -> None:
+def eigr(columns: Columns, problems: Problems) -> None:
     """EIGR asks for the same modes as EIGRL; the method is ours to choose."""
     count = len(columns["sid"])
     columns.update(v1=columns.pop("f1"), v2=columns.pop("f2"))
     columns.update(msglvl=[0] * count, maxset=[0] * count, shfscl=[0.0] * count)
 
 
-def _pbar(columns: Columns, problems: Problems) -> None:
+def pbar(columns: Columns, problems: Problems) -> None:
     for row, (i1, i2) in enumerate(_pairs(columns, "i1", "i2")):
         if min(i1, i2, columns["a"][row], columns["j"][row]) < 0.0:
             problems.append(
@@ -139,23 +138,11 @@ def _pbar(columns: Columns, problems: Problems) -> None:
             )
 
 
-FINISHERS: dict[str, Callable[[Columns, Problems], None]] = {
-    "CBAR": _beam,
-    "CBEAM": _beam,
-    "CBUSH": _orientation,
-    "CQUAD4": _shell,
-    "CTRIA3": _shell,
-    "TLOAD1": _tload1,
-    "TLOAD2": _tload,
-    "CELAS3": _scalar,
-    "CDAMP3": _scalar,
-    "CMASS3": _scalar,
-    "CELAS4": _celas4,
-    "CDAMP4": _scalar,
-    "CMASS4": _scalar,
-    "CROD": _crod,
-    "CONROD": _conrod,
-    "PTUBE": _ptube,
-    "PBAR": _pbar,
-    "EIGR": _eigr,
-}
+def frame(kind: str, form: int, columns: Columns, problems: Problems) -> None:
+    """CORD1R to CORD2S share a table."""
+    count = len(columns["cid"])
+    columns["type"], columns["form"] = [kind] * count, [form] * count
+    for key in ("g1", "g2", "g3", "rid"):
+        columns.setdefault(key, [0] * count)
+    for key in (f"{p}{k}" for p in "abc" for k in "123"):
+        columns.setdefault(key, [float("nan")] * count)

@@ -4,7 +4,6 @@ pyNastran knows the shapes, defaults and interpolations of these cards; only att
 are read here, nothing is imported.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -28,7 +27,7 @@ _ENDS = """
 """.split()
 
 
-def _pbeam(card: Any) -> Rows:
+def pbeam(card: Any) -> Rows:
     row: dict[str, Any] = {"pid": card.pid, "mid": card.mid, "sos": tuple(card.so)}
     row.update({k: np.asarray(getattr(card, v), float) for k, v in _STATIONS.items()})
     row.update({name: float(getattr(card, name)) for name in _ENDS})
@@ -40,7 +39,7 @@ def _pbeam(card: Any) -> Rows:
     return [row]
 
 
-def _pbush(card: Any) -> Rows:
+def pbush(card: Any) -> Rows:
     def six(values: list) -> np.ndarray:
         padded = [v or 0.0 for v in values or ()]
         return np.array((padded + [0.0] * 6)[:6])
@@ -52,7 +51,7 @@ def _pbush(card: Any) -> Rows:
     return [{**row, "ks": six(card.Ki), "bs": six(card.Bi), "ges": six(card.GEi)}]
 
 
-def _pcomp(card: Any) -> Rows:
+def pcomp(card: Any) -> Rows:
     count, thickness = len(card.mids), float(np.sum(card.thicknesses))
     mirrored = 2.0 if (card.lam or "").startswith("SYM") else 1.0
     plies = getattr(card, "global_ply_ids", range(1, count + 1))
@@ -77,7 +76,7 @@ def _pcomp(card: Any) -> Rows:
     ]
 
 
-def _rbe3(card: Any) -> Rows:
+def rbe3(card: Any) -> Rows:
     terms = [
         (float(weight), comps, grid)
         for weight, comps, grids in zip(card.weights, card.comps, card.Gijs)
@@ -100,13 +99,13 @@ def _rbe3(card: Any) -> Rows:
     ]
 
 
-def _tabled1(card: Any) -> Rows:
+def tabled1(card: Any) -> Rows:
     xs, ys = _table(card)
     row = {"tid": card.tid, "xaxis": card.xaxis, "yaxis": card.yaxis, "xs": xs}
     return [{**row, "ys": ys, "extrap": card.extrap}]
 
 
-def _tabdmp1(card: Any) -> Rows:
+def tabdmp1(card: Any) -> Rows:
     fs, gs = _table(card)
     return [{"tid": card.tid, "type": card.Type or "G", "fs": fs, "gs": gs}]
 
@@ -120,14 +119,3 @@ def _table(card: Any) -> tuple[np.ndarray, np.ndarray]:
     if x[0] > x[-1]:
         x, y = x[::-1], y[::-1]
     return x, y
-
-
-EXTRACTORS: dict[str, Callable[[Any], Rows]] = {
-    "PBEAM": _pbeam,
-    "PBUSH": _pbush,
-    "PCOMP": _pcomp,
-    "PCOMPG": _pcomp,
-    "RBE3": _rbe3,
-    "TABLED1": _tabled1,
-    "TABDMP1": _tabdmp1,
-}

@@ -3,7 +3,6 @@
 Each function takes the fields of one card and returns its rows, columns by name.
 """
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -15,12 +14,12 @@ Row = dict[str, Any]
 Rows = list[Row]
 
 
-def _spoint(f: Fields) -> Rows:
+def spoint(f: Fields) -> Rows:
     written, between = f.ids(1, "ID")
     return [{"id": i} for i in (*written, *between)]
 
 
-def _spc1(f: Fields) -> Rows:
+def spc1(f: Fields) -> Rows:
     sid, c = f.integer(1, "SID"), f.components(2, "C", "0")
     written, between = f.ids(3, "G")
     rows = [{"sid": sid, "g": g, "c": c, "d": 0.0, "thru": False} for g in written]
@@ -29,7 +28,7 @@ def _spc1(f: Fields) -> Rows:
     return rows
 
 
-def _set1(f: Fields) -> Rows:
+def freedoms(f: Fields) -> Rows:
     """ASET1, BSET1 and QSET1."""
     c = f.components(1, "C", "0")
     written, between = f.ids(2, "ID")
@@ -37,13 +36,13 @@ def _set1(f: Fields) -> Rows:
     return rows + [{"id": i, "c": c, "thru": True} for i in between]
 
 
-def _add(f: Fields) -> Rows:
+def add(f: Fields) -> Rows:
     """SPCADD, MPCADD, NSMADD."""
     written, between = f.ids(2, "S1")
     return [{"sid": f.integer(1, "SID"), "sets": (*written, *between)}]
 
 
-def _load(f: Fields) -> Rows:
+def load(f: Fields) -> Rows:
     """LOAD and DLOAD."""
     pairs = [(f.real(k, "SCALE"), f.integer(k + 1, "LID")) for k in f.groups(3, 2)]
     if not pairs:
@@ -53,7 +52,7 @@ def _load(f: Fields) -> Rows:
     return [{**row, "scales": scales, "lids": lids}]
 
 
-def _solid(f: Fields, most: int, corners: int) -> Rows:
+def solid(f: Fields, *, most: int, corners: int) -> Rows:
     """CHEXA, CPENTA, CTETRA, CPYRAM."""
     if any(f.card.fields[3 + most :]):
         raise Malformed(f"more than {most} grids")
@@ -76,19 +75,19 @@ def _symmetric(f: Fields, start: int, name: str, *, lower: bool) -> np.ndarray:
     return matrix + matrix.T - np.diag(np.diag(matrix))
 
 
-def _conm1(f: Fields) -> Rows:
+def conm1(f: Fields) -> Rows:
     row = {"eid": f.integer(1, "EID"), "g": f.integer(2, "G")}
     row["cid"] = f.integer(3, "CID", 0)
     return [{**row, "ms": _symmetric(f, 4, "M", lower=True)}]
 
 
-def _mat9(f: Fields) -> Rows:
+def mat9(f: Fields) -> Rows:
     row: Row = {"mid": f.integer(1, "MID")}
     row["gs"] = _symmetric(f, 2, "G", lower=False)
     return [{**row, "rho": f.real(23, "RHO", 0.0), "ge": f.real(31, "GE", 0.0)}]
 
 
-def _rbe2(f: Fields) -> Rows:
+def rbe2(f: Fields) -> Rows:
     texts = [text for text in f.card.fields[4:] if text]
     # ALPHA and TREF may follow the grids; they act with temperatures only.
     while texts and "." in texts[-1]:
@@ -100,7 +99,7 @@ def _rbe2(f: Fields) -> Rows:
     return [{**row, "gms": np.array(sorted({*written, *between}), dtype=np.int64)}]
 
 
-def _mpc(f: Fields) -> Rows:
+def mpc(f: Fields) -> Rows:
     terms = []
     for row in range(1, len(f), 8):
         for k in (row + 1, row + 4):
@@ -118,13 +117,13 @@ def _mpc(f: Fields) -> Rows:
     return [{**row, "coefficients": coefficients}]
 
 
-def _pload2(f: Fields) -> Rows:
+def pload2(f: Fields) -> Rows:
     written, between = f.ids(3, "EID1")
     eids = np.array(sorted({*written, *between}), dtype=np.int64)
     return [{"sid": f.integer(1, "SID"), "p": f.real(2, "P"), "eids": eids}]
 
 
-def _pload4(f: Fields) -> Rows:
+def pload4(f: Fields) -> Rows:
     p1 = f.real(3, "P1", 0.0)
     row: Row = {"sid": f.integer(1, "SID"), "p1": p1, "g1": 0, "g34": 0}
     row.update({f"p{k}": f.real(2 + k, f"P{k}", p1) for k in (2, 3, 4)})
@@ -141,7 +140,7 @@ def _pload4(f: Fields) -> Rows:
     return [{**row, "eids": np.array(eids, dtype=np.int64)}]
 
 
-def _accel1(f: Fields) -> Rows:
+def accel1(f: Fields) -> Rows:
     row: Row = {"sid": f.integer(1, "SID"), "cid": f.integer(2, "CID", 0)}
     row["a"] = f.real(3, "A")
     row.update({f"n{k}": f.real(3 + k, f"N{k}", 0.0) for k in (1, 2, 3)})
@@ -149,7 +148,7 @@ def _accel1(f: Fields) -> Rows:
     return [{**row, "grids": np.array(sorted({*written, *between}), dtype=np.int64)}]
 
 
-def _tstep(f: Fields) -> Rows:
+def tstep(f: Fields) -> Rows:
     steps = []
     for k in f.groups(2, 3, row=8):
         count, step = f.integer(k, "N"), f.real(k + 1, "DT")
@@ -166,37 +165,9 @@ def _tstep(f: Fields) -> Rows:
     return [{**row, "steps": sizes, "outputs": outputs}]
 
 
-def _seconct(f: Fields) -> Rows:
+def seconct(f: Fields) -> Rows:
     """Pairs of points that two superelements share; SEIDB 0 is the residual one."""
     pairs = [(f.integer(k, "GIDA"), f.integer(k + 1, "GIDB")) for k in f.groups(9, 2)]
     a, b = (np.array(column, dtype=np.int64) for column in zip(*pairs or [(0, 0)]))
     row = {"sea": f.integer(1, "SEIDA"), "seb": f.integer(2, "SEIDB")}
     return [{**row, "gidas": a, "gidbs": b}]
-
-
-READERS: dict[str, Callable[[Fields], Rows]] = {
-    "SPOINT": _spoint,
-    "SPC1": _spc1,
-    "ASET1": _set1,
-    "BSET1": _set1,
-    "BNDFIX1": _set1,
-    "QSET1": _set1,
-    "SPCADD": _add,
-    "MPCADD": _add,
-    "NSMADD": _add,
-    "LOAD": _load,
-    "DLOAD": _load,
-    "CHEXA": lambda f: _solid(f, 20, 8),
-    "CPENTA": lambda f: _solid(f, 15, 6),
-    "CTETRA": lambda f: _solid(f, 10, 4),
-    "CPYRAM": lambda f: _solid(f, 13, 5),
-    "CONM1": _conm1,
-    "MAT9": _mat9,
-    "RBE2": _rbe2,
-    "MPC": _mpc,
-    "PLOAD2": _pload2,
-    "PLOAD4": _pload4,
-    "ACCEL1": _accel1,
-    "TSTEP": _tstep,
-    "SECONCT": _seconct,
-}

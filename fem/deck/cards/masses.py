@@ -1,6 +1,5 @@
 """Non-structural mass sets: NSM, NSM1 (per length or area), NSML, NSML1 (lumped)."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -30,19 +29,19 @@ def _ids(f: Fields) -> np.ndarray:
     return np.array(sorted({*written, *between}), dtype=np.int64)
 
 
-def _nsm(f: Fields) -> Rows:
+def nsm(f: Fields) -> Rows:
     ids, values = _pairs(f)
     row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
     return [{**row, "ids": ids, "values": values}]
 
 
-def _nsm1(f: Fields) -> Rows:
+def nsm1(f: Fields) -> Rows:
     ids, value = _ids(f), f.real(3, "VALUE")
     row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
     return [{**row, "ids": ids, "values": np.full(len(ids), value)}]
 
 
-def _nsml(f: Fields) -> Rows:
+def nsml(f: Fields) -> Rows:
     ids, values = _pairs(f)
     row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
     return [
@@ -50,14 +49,6 @@ def _nsml(f: Fields) -> Rows:
     ]
 
 
-def _nsml1(f: Fields) -> Rows:
+def nsml1(f: Fields) -> Rows:
     row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
     return [{**row, "ids": _ids(f), "value": f.real(3, "VALUE")}]
-
-
-READERS: dict[str, Callable[[Fields], Rows]] = {
-    "NSM": _nsm,
-    "NSM1": _nsm1,
-    "NSML": _nsml,
-    "NSML1": _nsml1,
-}

@@ -1,6 +1,5 @@
 """PBARL and PBEAML: dimensions of a cross-section to rows of PBAR and PBEAM."""
 
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -44,7 +43,7 @@ def _section(kind: str, dims: list[float]) -> Section:
         raise Malformed(str(error)) from None
 
 
-def _pbarl(f: Fields) -> Rows:
+def pbarl(f: Fields) -> Rows:
     kind = _kind(f)
     shape = _section(kind, _dimensions(f, kind, 9))
     c = shape.constants
@@ -55,7 +54,7 @@ def _pbarl(f: Fields) -> Rows:
     return [{**row, "nsm": f.real(9 + DIMENSIONS[kind], "NSM", 0.0)}]
 
 
-def _pbeaml(f: Fields) -> Rows:
+def pbeaml(f: Fields) -> Rows:
     kind = _kind(f)
     stations = _stations(f, kind)
     shapes = [_section(kind, dims) for _, _, dims, _ in stations]
@@ -107,6 +106,3 @@ def _stations(f: Fields, kind: str) -> list[tuple[float, str, list[float], float
     if len(set(positions)) < len(positions):
         raise Malformed("field X/XB: a station is given twice")
     return stations
-
-
-READERS: dict[str, Callable[[Fields], Rows]] = {"PBARL": _pbarl, "PBEAML": _pbeaml}

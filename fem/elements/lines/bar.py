@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
+from fem.deck.records.lines import BAR_ENDS, BAR_FORCE, BAR_STRESS
 from fem.deck.references import column, refer, table
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.lines.beam_mass import LineMass, coupled_mass, lumped_mass
@@ -28,23 +29,7 @@ from fem.properties.materials import Isotropic, isotropic
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-FORCE_COLUMNS = (
-    "bending_moment_a1",
-    "bending_moment_a2",
-    "bending_moment_b1",
-    "bending_moment_b2",
-    "shear1",
-    "shear2",
-    "axial",
-    "torque",
-)
-_AT_END = ("bending_moment1", "bending_moment2", "shear1", "shear2", "axial", "torque")
-END_COLUMNS = tuple(f"{name}_{end}" for end in "ab" for name in _AT_END)
 _ENDS = (0, 1, 4, 5, 6, 7, 2, 3, 8, 9, 10, 11)
-STRESS_COLUMNS = (
-    *("s1a", "s2a", "s3a", "s4a", "axial", "smaxa", "smina"),
-    *("s1b", "s2b", "s3b", "s4b", "smaxb", "sminb"),
-)
 # Two points integrate the flexibility of a prismatic beam (quadratic), four its mass.
 _GAUSS_2, _GAUSS_4 = (np.polynomial.legendre.leggauss(n) for n in (2, 4))
 
@@ -106,7 +91,7 @@ class Bar(LineBlock):
             return super().recovery(kind, detail)
         return Recovery(
             table="CBAR_ENDS",
-            columns=END_COLUMNS,
+            columns=BAR_ENDS,
             matrix=bar_forces(self._at_ends @ self._map)[:, _ENDS],
             id=self.id,
         )
@@ -114,7 +99,7 @@ class Bar(LineBlock):
     def forces(self) -> Recovery:
         return Recovery(
             table=self.card,
-            columns=FORCE_COLUMNS,
+            columns=BAR_FORCE,
             matrix=self._force_matrix,
             id=self.id,
         )
@@ -122,7 +107,7 @@ class Bar(LineBlock):
     def stresses(self) -> Recovery:
         return BarStress(
             table=self.card,
-            columns=STRESS_COLUMNS,
+            columns=BAR_STRESS,
             matrix=bar_stress_matrix(self.section) @ self._force_matrix,
             id=self.id,
         )

@@ -14,6 +14,7 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
+from fem.deck.records.lines import BEAM_FORCE, BEAM_STRESS, at_ends, at_stations
 from fem.deck.references import refer, table, where
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.lines.bar import bar_forces
@@ -25,12 +26,9 @@ from fem.elements.lines.beam_sections import (
     read_stations,
 )
 from fem.elements.lines.beam_stations import (
-    FORCES,
-    STRESSES,
     TABLE,
     StationRecovery,
     Stations,
-    station_columns,
     stress_rows,
 )
 from fem.elements.lines.beam_stiffness import SectionCompliance, beam_stiffness
@@ -44,9 +42,6 @@ from fem.properties.materials import Isotropic, isotropic
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-_ENDS = ("a", "b")
-FORCE_COLUMNS = tuple(f"{name}_{end}" for end in _ENDS for name in FORCES)
-STRESS_COLUMNS = tuple(f"{name}_{end}" for end in _ENDS for name in STRESSES)
 # M1 M2 V1 V2 N T of both ends among the rows of `bar_forces`.
 _OF_ENDS = ([0, 1, 4, 5, 6, 7], [2, 3, 8, 9, 10, 11])
 
@@ -88,7 +83,7 @@ class Beam(LineBlock):
     def forces(self) -> Recovery:
         return Recovery(
             table=self.card,
-            columns=FORCE_COLUMNS,
+            columns=at_ends(BEAM_FORCE),
             matrix=_printed(self._force_matrix),
             id=self.id,
         )
@@ -96,7 +91,7 @@ class Beam(LineBlock):
     def stresses(self) -> Recovery:
         return BeamStress(
             table=self.card,
-            columns=STRESS_COLUMNS,
+            columns=at_ends(BEAM_STRESS),
             matrix=beam_stress_matrix(self.section) @ self._force_matrix,
             id=self.id,
         )
@@ -121,11 +116,11 @@ class Beam(LineBlock):
             matrix = stations.stresses(ends)
             if kind == "strain":
                 matrix = matrix * self._per_modulus[:, None]
-        names = FORCES if kind == "force" else STRESSES
+        names = BEAM_FORCE if kind == "force" else BEAM_STRESS
         e, s, q, n = matrix.shape
         return StationRecovery(
             table=TABLE,
-            columns=station_columns(names, s),
+            columns=at_stations(names, s),
             matrix=matrix.reshape(e, s * q, n),
             id=self.id,
             x=stations.x,

@@ -14,16 +14,6 @@ from fem.arrays import Float64
 from fem.elements.block import Recovery
 from fem.elements.lines.bar import bending_stress
 
-FORCES = (
-    "bending_moment1",
-    "bending_moment2",
-    "shear1",
-    "shear2",
-    "axial_force",
-    "total_torque",
-    "warping_torque",
-)
-STRESSES = ("sxc", "sxd", "sxe", "sxf", "smax", "smin")
 TABLE = "CBEAM_STATIONS"
 
 
@@ -91,11 +81,6 @@ def inner_stations(row: pd.Series) -> tuple[Float64, Float64]:
     first = int(np.argmin(x))
     same = [first if str(row["sos"][k]).upper() == "YESA" else k for k in wanted]
     return x[wanted], np.nan_to_num(points[:, :, same]).transpose(2, 0, 1)
-
-
-def station_columns(names: tuple[str, ...], count: int) -> tuple[str, ...]:
-    """Columns of the stations from A to B with the suffixes `_s1`, `_s2`, ..."""
-    return tuple(f"{name}_s{k}" for k in range(1, count + 1) for name in ("x", *names))
 
 
 @dataclass(frozen=True, kw_only=True)

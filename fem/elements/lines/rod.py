@@ -7,6 +7,7 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
+from fem.deck.records.lines import ROD
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
@@ -16,8 +17,6 @@ from fem.properties.materials import Isotropic, isotropic
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
-
-COLUMNS = ("axial", "torsion")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +88,7 @@ class Rod(DenseBlock):
     def forces(self) -> Recovery:
         return Recovery(
             table=self.card,
-            columns=COLUMNS,
+            columns=ROD,
             matrix=self._resultants(
                 self.material.e * self.section.a, self.material.g * self.section.j
             ),
@@ -99,7 +98,7 @@ class Rod(DenseBlock):
     def stresses(self) -> Recovery:
         return Recovery(
             table=self.card,
-            columns=COLUMNS,
+            columns=ROD,
             matrix=self._resultants(
                 np.where(self.section.a != 0.0, self.material.e, 0.0),
                 np.where(self.section.j != 0.0, self.material.g, 0.0) * self.section.c,
@@ -111,7 +110,7 @@ class Rod(DenseBlock):
         """Stretch, and shear strain at the lever of the torsional stress."""
         return Recovery(
             table=self.card,
-            columns=COLUMNS,
+            columns=ROD,
             matrix=self._resultants(np.ones_like(self.length), self.section.c),
             id=self.id,
         )

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
+from fem.deck.records.scalars import BUSH_FORCE, BUSH_STRESS
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock
@@ -27,9 +28,6 @@ from fem.geometry.points import Points
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
-
-COLUMNS = ("fx", "fy", "fz", "mx", "my", "mz")
-STRESS_COLUMNS = ("tx", "ty", "tz", "rx", "ry", "rz")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -72,17 +70,17 @@ class Bushings(DenseBlock):
 
     def forces(self) -> Recovery:
         """Forces of the springs and, in transients, of the dashpots."""
-        return self._recovery(COLUMNS, self.k, self.b)
+        return self._recovery(BUSH_FORCE, self.k, self.b)
 
     def stresses(self) -> Recovery:
         """Forces times the coefficients SA and ST of PBUSH (RCV), 1 by default."""
         stress = np.repeat(self.coefficients[:, :2], 3, axis=1)
-        return self._recovery(STRESS_COLUMNS, stress * self.k, stress * self.b)
+        return self._recovery(BUSH_STRESS, stress * self.k, stress * self.b)
 
     def strains(self) -> Recovery:
         """Deformations times the coefficients EA and ET of PBUSH (RCV)."""
         strain = np.repeat(self.coefficients[:, 2:], 3, axis=1)
-        return self._recovery(STRESS_COLUMNS, strain, np.zeros_like(strain))
+        return self._recovery(BUSH_STRESS, strain, np.zeros_like(strain))
 
     def _recovery(
         self, columns: tuple[str, ...], of_motion: Float64, of_rate: Float64

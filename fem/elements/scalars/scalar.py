@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
+from fem.deck.records.scalars import DAMPER, SPRING
 from fem.deck.references import column, refer, table
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
@@ -19,8 +20,6 @@ from fem.geometry.points import Points
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-SPRING_COLUMNS = ("spring_force", "spring_stress", "spring_strain")
-DAMPER_COLUMNS = ("damper_force",)
 _PAIR = np.array([[1.0, -1.0], [-1.0, 1.0]])
 
 
@@ -45,14 +44,14 @@ class Springs(DenseBlock):
         return some(self.ge)
 
     def forces(self) -> Recovery:
-        return self._recovery(SPRING_COLUMNS[0], self.k)
+        return self._recovery(SPRING[0], self.k)
 
     def stresses(self) -> Recovery:
-        return self._recovery(SPRING_COLUMNS[1], self.k * self.s)
+        return self._recovery(SPRING[1], self.k * self.s)
 
     def strains(self) -> Recovery:
         """Stress coefficient times elongation, as NX has it."""
-        return self._recovery(SPRING_COLUMNS[2], self.s)
+        return self._recovery(SPRING[2], self.s)
 
     def _recovery(self, column: str, factor: Float64) -> Recovery:
         matrix = factor[:, None, None] * _PAIR[:1]
@@ -73,7 +72,7 @@ class Dashpots(DenseBlock):
         rate = self.b[:, None, None] * _PAIR[:1]
         return Recovery(
             table=self.card,
-            columns=DAMPER_COLUMNS,
+            columns=DAMPER,
             matrix=np.zeros_like(rate),
             rate=rate,
             id=self.id,

@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fem.arrays import Float64
+from fem.deck.records.lines import ROD
 from fem.deck.references import column, refer, table
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock
-from fem.elements.lines.rod import COLUMNS, line_springs, unit_axes
+from fem.elements.lines.rod import line_springs, unit_axes
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ class Viscous(DenseBlock):
             rate[:, row, 6 + 3 * row : 9 + 3 * row] = along
         return Recovery(
             table=self.card,
-            columns=COLUMNS,
+            columns=ROD,
             matrix=np.zeros_like(rate),
             rate=rate,
             id=self.id,

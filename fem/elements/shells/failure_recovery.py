@@ -5,15 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.arrays import Float64, Int64
+from fem.deck.records.shells import PLY_FAILURE, of_plies
 from fem.elements.block import Recovery
 from fem.properties.failure import Failure
 
 
 def failure_names(plies: int) -> tuple[str, ...]:
     """Columns: of ply k from the bottom with the suffix `_p<k>`, then the largest."""
-    names = ("ply_index", "bond_index")
-    each = (f"{name}_p{k}" for k in range(1, plies + 1) for name in names)
-    return (*each, "max_index")
+    return (*of_plies(PLY_FAILURE, plies), "max_index")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
+from fem.deck.records.shells import PANEL_FORCE, PANEL_STRESS
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
@@ -29,11 +30,6 @@ if TYPE_CHECKING:
 
 _SIDES = ((0, 1), (1, 2), (2, 3), (3, 0))
 _PARALLEL = 0.01
-FORCE = (
-    *("f41", "f21", "f12", "f32", "f23", "f43", "f34", "f14"),
-    *("kick1", "shear12", "kick2", "shear23", "kick3", "shear34", "kick4", "shear41"),
-)
-STRESS = ("max_shear", "avg_shear")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -276,7 +272,7 @@ class ShearPanel(DenseBlock):
         )  # fmt: skip
         return Recovery(
             table=self.card,
-            columns=FORCE,
+            columns=PANEL_FORCE,
             matrix=rows[:, :, None] * flow[:, None, :],
             id=self.id,
         )
@@ -298,7 +294,7 @@ class ShearPanel(DenseBlock):
         mean = self._flow(shape) / self.thickness[:, None]
         return PanelStress(
             table=self.card,
-            columns=STRESS,
+            columns=PANEL_STRESS,
             matrix=ratio[:, :, None] * mean[:, None, :],
             id=self.id,
         )

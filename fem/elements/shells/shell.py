@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fem.arrays import Float64, Int64
+from fem.deck.records.shells import PLY_STRAIN, PLY_STRESS, SHELL_FORCE, of_plies
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.failure_recovery import FailureRecovery, failure_names
@@ -18,10 +19,8 @@ from fem.elements.shells.shell_geometry import Facet, facet, matrix_to_grids, to
 from fem.elements.shells.shell_hybrid import in_plane
 from fem.elements.shells.shell_mass import shell_mass
 from fem.elements.shells.shell_recovery import (
-    FORCE,
     FibreRecovery,
     PlyRecovery,
-    ply_names,
     point_names,
     strain_names,
     stress_names,
@@ -131,7 +130,7 @@ class Shell(DenseBlock):
         e, p = resultant.shape[:2]
         return Recovery(
             table=self.card,
-            columns=point_names(FORCE, p),
+            columns=point_names(SHELL_FORCE, p),
             matrix=resultant.reshape(e, p * 8, -1),
             id=self.id,
         )
@@ -226,7 +225,7 @@ class Shell(DenseBlock):
             maps[k, : 5 * len(ply)] = ply.reshape(-1, 8)
         return PlyRecovery(
             table=f"{self.card}_COMPOSITE",
-            columns=ply_names(most, strain=strain),
+            columns=of_plies(PLY_STRAIN if strain else PLY_STRESS, most),
             matrix=self._material_resultants(),
             id=self.id,
             laminate=self.which,

@@ -10,21 +10,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.arrays import Float64, Int64
+from fem.deck.records.shells import SHELL_STRAIN, SHELL_STRESS, at_fibres
 from fem.elements.block import Recovery
 from fem.elements.stress_measures import (
     plane_columns,
     plane_von_mises,
     plane_von_mises_strain,
 )
-
-FORCE = ("fx", "fy", "fxy", "mx", "my", "mxy", "tx", "ty")
-_STRESS = ("fibre", "oxx", "oyy", "txy", "angle", "major", "minor", "von_mises")
-_STRAIN = ("fibre", "exx", "eyy", "exy", "angle", "major", "minor", "von_mises")
-_PLY_STRAIN = (
-    *("e11", "e22", "e12", "e1z", "e2z"),
-    *("angle", "major", "minor", "max_shear"),
-)
-_PLY = ("o11", "o22", "t12", "t1z", "t2z", "angle", "major", "minor", "max_shear")
 
 
 def point_names(columns: tuple[str, ...], points: int) -> tuple[str, ...]:
@@ -33,24 +25,14 @@ def point_names(columns: tuple[str, ...], points: int) -> tuple[str, ...]:
     return tuple(f"{prefix}{name}" for prefix in prefixes for name in columns)
 
 
-def _fibre_names(columns: tuple[str, ...]) -> tuple[str, ...]:
-    return tuple(f"{name}_{fibre}" for fibre in (1, 2) for name in columns)
-
-
 def stress_names(points: int) -> tuple[str, ...]:
     """Columns of stresses at both fibres of each point."""
-    return point_names(_fibre_names(_STRESS), points)
+    return point_names(at_fibres(SHELL_STRESS), points)
 
 
 def strain_names(points: int) -> tuple[str, ...]:
     """Columns of strains at both fibres of each point."""
-    return point_names(_fibre_names(_STRAIN), points)
-
-
-def ply_names(plies: int, *, strain: bool = False) -> tuple[str, ...]:
-    """Columns of ply results, ply k from the bottom with the suffix `_p<k>`."""
-    names = _PLY_STRAIN if strain else _PLY
-    return tuple(f"{name}_p{k}" for k in range(1, plies + 1) for name in names)
+    return point_names(at_fibres(SHELL_STRAIN), points)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fem.arrays import Float64, Int64
+from fem.deck.records.solids import SOLID_STRAIN, SOLID_STRESS
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.shell_recovery import point_names
@@ -13,30 +14,6 @@ from fem.elements.solids.isoparametric import Derivatives, Rule, jacobians
 from fem.elements.solids.solid_stiffness import SolidMatrices
 from fem.elements.stress_measures import solid_principal, solid_von_mises
 
-STRESS = (
-    "oxx",
-    "oyy",
-    "ozz",
-    "txy",
-    "tyz",
-    "txz",
-    "major",
-    "mid",
-    "minor",
-    "von_mises",
-)
-_STRAIN = (
-    "exx",
-    "eyy",
-    "ezz",
-    "exy",
-    "eyz",
-    "exz",
-    "major",
-    "mid",
-    "minor",
-    "von_mises",
-)
 # Elements that are integrated at a time: bounds the memory for large models.
 _CHUNK = 2048
 
@@ -154,7 +131,7 @@ class Solid(DenseBlock):
         e, p = matrix.shape[:2]
         return SolidRecovery(
             table=self.card,
-            columns=point_names(_STRAIN if strain else STRESS, p),
+            columns=point_names(SOLID_STRAIN if strain else SOLID_STRESS, p),
             matrix=matrix.reshape(e, p * 6, -1),
             id=self.id,
             strain=strain,

@@ -7,18 +7,16 @@ import pytest
 from pyNastran.bdf.bdf import BDF
 
 from fem.deck.reader import read_deck
-from fem.deck.schema import ALIASES, COLUMNS
+from fem.deck.records import TABLES, table_of
 from fem.errors import InputError
 from fem.model.points import read_points
 
 
-def test_every_table_of_the_schema_is_there_with_its_columns(read):
+def test_every_table_of_the_records_is_there_with_its_columns(read):
     tables = read().cards
-    assert set(tables) == set(COLUMNS)
-    for name, text in COLUMNS.items():
-        columns = ["file", "line", *(c.rstrip("*") for c in text.split())]
-        assert list(tables[name].columns) == columns, name
-    assert not set(ALIASES) & set(COLUMNS) - {"SPC", "CORD"}
+    assert set(tables) == set(TABLES)
+    for name, record in TABLES.items():
+        assert list(tables[name].columns) == ["file", "line", *record.columns], name
 
 
 def test_grdset_baror_and_property_defaults(read):
@@ -205,9 +203,9 @@ def test_reference_decks_read_and_are_placed_as_pynastran_places_them(references
     assert points.grid_id.tolist() == sorted(model.nodes)
     theirs = np.array([model.nodes[i].get_position() for i in points.grid_id])
     np.testing.assert_allclose(points.xyz, theirs, atol=1e-12)
-    counts = {name: 0 for name in COLUMNS}
+    counts = dict.fromkeys(TABLES, 0)
     for card, count in model.card_count.items():
-        counts[ALIASES.get(card, card)] = counts.get(ALIASES.get(card, card), 0) + count
+        counts[table_of(card)] = counts.get(table_of(card), 0) + count
     for card in (
         "CBAR",
         "CBEAM",

@@ -1,0 +1,74 @@
+"""Rigid elements, constraints, sets of a reduction."""
+
+from fem.deck import conversions
+from fem.deck.cards import from_pynastran, lists
+from fem.deck.records.card import Card
+
+_GROUP, _SETS = "Rigid elements, constraints", "Sets of a reduction"
+_FREEDOMS = "(id:i>POINT c:c=0)"
+
+RECORDS = (
+    Card(
+        name="RBE2",
+        group=_GROUP,
+        read=lists.rbe2,
+        more="eid:i gn:i>GRID cm:c gms:*>GRID",
+        ids="own",
+    ),
+    # Weights, components, grids: parallel sequences, one entry per (weight, grid).
+    Card(
+        name="RBE3",
+        group=_GROUP,
+        extract=from_pynastran.rbe3,
+        more="eid:i refgrid:i>GRID refc:c weights:*[1] comps:* grids:*>GRID "
+        "umgrids:*>GRID umcomps:*",
+        ids="own",
+    ),
+    Card(
+        name="RBAR",
+        group=_GROUP,
+        fields="eid:i ga:i>GRID gb:i>GRID cna:c= cnb:c= cma:c= cmb:c= -",
+        ids="own",
+    ),
+    # comps: integers, 0 for a scalar point
+    Card(
+        name="MPC",
+        group=_GROUP,
+        read=lists.mpc,
+        more="sid:i grids:*>POINT comps:* coefficients:*",
+        convert=conversions.equation,
+    ),
+    Card(name="MPCADD", group=_GROUP, read=lists.add, more="sid:i sets:*"),
+    # c text of digits ('0' scalar point), d enforced value
+    Card(
+        name="SPC",
+        group=_GROUP,
+        fields="sid:i (g:i>POINT c:c=0 d:f=0.)",
+        convert=conversions.enforced,
+    ),
+    Card(name="SPC1", group=_GROUP, read=lists.spc1, table="SPC"),
+    Card(name="SPCADD", group=_GROUP, read=lists.add, more="sid:i sets:*"),
+    Card(name="SUPORT", group=_GROUP, fields=_FREEDOMS),
+    # Of the sets with fixed boundary, reductions here take all.
+    Card(name="ASET", group=_SETS, fields=_FREEDOMS),
+    Card(name="ASET1", group=_SETS, read=lists.freedoms, table="ASET"),
+    Card(name="BSET", group=_SETS, fields=_FREEDOMS, table="ASET"),
+    Card(name="BSET1", group=_SETS, read=lists.freedoms, table="ASET"),
+    Card(name="BNDFIX", group=_SETS, fields=_FREEDOMS, table="ASET"),
+    Card(name="BNDFIX1", group=_SETS, read=lists.freedoms, table="ASET"),
+    Card(name="QSET", group=_SETS, fields=_FREEDOMS),
+    Card(name="QSET1", group=_SETS, read=lists.freedoms, table="QSET"),
+    # Partitioned superelements: SEBULK in the main section, grids joined by SECONCT.
+    Card(
+        name="SEBULK",
+        group=_SETS,
+        fields="seid:i type:s rseid:i=0 method:s=AUTO tol:f=1.E-5[1] loc:s=YES "
+        "unitno:i=0",
+    ),
+    Card(
+        name="SECONCT",
+        group=_SETS,
+        read=lists.seconct,
+        more="sea:i seb:i gidas:* gidbs:*",
+    ),
+)

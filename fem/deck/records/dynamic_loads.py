@@ -1,0 +1,62 @@
+"""Dynamic loads: patterns, functions of time, steps."""
+
+from fem.deck.cards import finish, from_pynastran, lists
+from fem.deck.records.card import Card
+
+_GROUP = "Dynamic loads"
+# delay: in seconds, delayid: of a DELAY set; type LOAD, DISP, VELO or ACCE
+_TLOAD = "sid:i exciteid:i delay:u=0 type:s=0"
+
+
+RECORDS = (
+    Card(name="DAREA", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 a:f)", load=True),
+    Card(name="LSEQ", group=_GROUP, fields="sid:i exciteid:i lid:i=0 -", load=True),
+    Card(
+        name="DLOAD",
+        group=_GROUP,
+        read=lists.load,
+        more="sid:i s:f scales:* lids:*",
+        load=True,
+    ),
+    Card(
+        name="TLOAD1",
+        group=_GROUP,
+        fields=f"{_TLOAD} tid:u us0:f=0. vs0:f=0.",
+        finish=finish.tload1,
+        more="delayid:i tid:i>TABLED1",
+        load=True,
+    ),
+    Card(
+        name="TLOAD2",
+        group=_GROUP,
+        fields=f"{_TLOAD} t1:f=0. t2:f f:f=0. p:f=0. c:f=0. b:f=0. us0:f=0. vs0:f=0.",
+        finish=finish.tload,
+        more="delayid:i",
+        load=True,
+    ),
+    Card(
+        name="DELAY", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 t:f=0.)", load=True
+    ),
+    Card(
+        name="TABLED1",
+        group=_GROUP,
+        extract=from_pynastran.tabled1,
+        more="tid:i xaxis:s yaxis:s xs:* ys:* extrap:i",
+        ids="own",
+        load=True,
+    ),
+    Card(
+        name="TIC",
+        group=_GROUP,
+        fields="sid:i id:i>POINT c:i=0 u0:f=0. v0:f=0.",
+        load=True,
+    ),
+    Card(
+        name="TSTEP",
+        group=_GROUP,
+        read=lists.tstep,
+        more="sid:i counts:* steps:* outputs:*",
+        ids="own",
+        load=True,
+    ),
+)

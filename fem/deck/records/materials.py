@@ -1,0 +1,50 @@
+"""Materials, and matrices given directly."""
+
+from fem.deck import conversions
+from fem.deck.cards import dmig, lists
+from fem.deck.records.card import Card
+
+_GROUP = "Materials"
+
+RECORDS = (
+    Card(
+        name="MAT1",
+        group=_GROUP,
+        fields="mid:i e:f=nan[M/L] g:f=nan[M/L] nu:f=nan rho:f=0.[M/L3] a:f=0. "
+        "tref:f=0. ge:f=0. st:f=nan[M/L] sc:f=nan[M/L] ss:f=nan[M/L] mcsid:i=0>CORD",
+        ids="material",
+    ),
+    Card(
+        name="MAT2",
+        group=_GROUP,
+        fields="mid:i g11:f=0.[M/L] g12:f=0.[M/L] g13:f=0.[M/L] g22:f=0.[M/L] "
+        "g23:f=0.[M/L] g33:f=0.[M/L] rho:f=0.[M/L3] - - - - ge:f=0. st:f=nan[M/L] "
+        "sc:f=nan[M/L] ss:f=nan[M/L] -",
+        ids="material",
+    ),
+    Card(
+        name="MAT8",
+        group=_GROUP,
+        fields="mid:i e1:f[M/L] e2:f[M/L] nu12:f=0. g12:f=0.[M/L] g1z:f=0.[M/L] "
+        "g2z:f=0.[M/L] rho:f=0.[M/L3] - - - xt:f=nan xc:f=nan yt:f=nan yc:f=nan "
+        "s:f=nan ge:f=0. f12:f=0.[L2/M2] strn:f=0.",
+        ids="material",
+        convert=conversions.strengths,
+    ),
+    # gs: (6, 6) symmetric
+    Card(
+        name="MAT9",
+        group=_GROUP,
+        read=lists.mat9,
+        more="mid:i gs:*[M/L] rho:f[M/L3] ge:f",
+        ids="material",
+    ),
+    # Complete, both triangles; columns of text and numbers.
+    Card(
+        name="DMIG",
+        group="Matrices",
+        gather=dmig.read_dmig,
+        more="name:s form:i rowids:*>POINT rowcs:* colids:*>POINT colcs:* values:*",
+        convert=conversions.matrix,
+    ),
+)

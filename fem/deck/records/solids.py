@@ -1,0 +1,101 @@
+"""Solids and their property.
+
+nodes: (n,) corners, then mid-sides, 0 for those that are not there.
+"""
+
+from functools import partial
+
+from fem.deck.cards import lists
+from fem.deck.records.card import Card, Element, Op2, Result, Topology
+
+_GROUP = "Solids"
+_COLUMNS = "eid:i pid:i>PSOLID nodes:*>GRID?"
+_PRINCIPAL = ("major", "mid", "minor", "von_mises")
+SOLID_STRESS = ("oxx", "oyy", "ozz", "txy", "tyz", "txz", *_PRINCIPAL)
+SOLID_STRAIN = ("exx", "eyy", "ezz", "exy", "eyz", "exz", *_PRINCIPAL)
+_RESULTS = (
+    Result(
+        kinds=("stress", "strain"),
+        columns=SOLID_STRESS,
+        remark="centre, then corners (prefix c1_, c2_, ...)",
+    ),
+)
+
+HEXA = Topology(
+    kind="solid",
+    grids=("nodes",),
+    corners=8,
+    edges=(
+        *((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 5)),
+        *((2, 6), (3, 7), (4, 5), (5, 6), (6, 7), (7, 4)),
+    ),
+    faces=(
+        *((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4)),
+        *((1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)),
+    ),
+    cells={8: 12, 20: 25},
+    order={20: (*range(12), 16, 17, 18, 19, 12, 13, 14, 15)},
+)
+PENTA = Topology(
+    kind="solid",
+    grids=("nodes",),
+    corners=6,
+    edges=(
+        *((0, 1), (1, 2), (2, 0), (0, 3), (1, 4), (2, 5)),
+        *((3, 4), (4, 5), (5, 3)),
+    ),
+    faces=((0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)),
+    cells={6: 13, 15: 26},
+    order={15: (*range(9), 12, 13, 14, 9, 10, 11)},
+)
+TETRA = Topology(
+    kind="solid",
+    grids=("nodes",),
+    corners=4,
+    edges=((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)),
+    faces=((0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)),
+    triangles="opposite",
+    cells={4: 10, 10: 24},
+)
+PYRAMID = Topology(
+    kind="solid",
+    grids=("nodes",),
+    corners=5,
+    edges=((0, 1), (1, 2), (2, 3), (3, 0), (0, 4), (1, 4), (2, 4), (3, 4)),
+    faces=((0, 3, 2, 1), (0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4)),
+    triangles="base",
+    cells={5: 14},
+)
+
+
+def _solid(name: str, topology: Topology, reader: str, op2: int) -> Card:
+    most = topology.corners + len(topology.edges)
+    return Card(
+        name=name,
+        group=_GROUP,
+        read=partial(lists.solid, most=most, corners=topology.corners),
+        more=_COLUMNS,
+        ids="own",
+        element=Element(
+            reader=reader,
+            topology=topology,
+            op2=Op2(type=op2, stress="solid"),
+            results=_RESULTS,
+        ),
+    )
+
+
+RECORDS = (
+    _solid("CHEXA", HEXA, "solids.hexa:read_chexa", 67),
+    _solid("CPENTA", PENTA, "solids.penta:read_cpenta", 68),
+    _solid("CTETRA", TETRA, "solids.tetra:read_ctetra", 39),
+    _solid("CPYRAM", PYRAMID, "solids.pyramid:read_cpyram", 255),
+    # cordm -1: element, 0: basic
+    Card(
+        name="PSOLID",
+        group=_GROUP,
+        fields="pid:i mid:i>MAT1|MAT9 cordm:i=0>CORD integ:s= stress:s= isop:s= "
+        "fctn:s=SMECH",
+        ids="own",
+    ),
+)
