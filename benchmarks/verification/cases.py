@@ -14,6 +14,7 @@ from benchmarks.verification import (
     nafems_plates,
     patches,
     rigid_motion,
+    sections,
     small_systems,
 )
 from benchmarks.verification.row import Row
@@ -73,6 +74,8 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         nafems_beams.fv5,
         nafems_beams.deep_beam_transient,
         nafems_beams.euler_cantilever,
+        sections.shear_factors,
+        sections.round_cantilever_modes,
         small_systems.damped_oscillator,
         small_systems.four_points,
         nafems_plates.plates,

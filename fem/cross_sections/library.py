@@ -3,23 +3,22 @@
 Types and dimensions are those of Nastran's guide, group MSCBML0. Coordinates (y, z)
 have y up (axis 1 of the element) and z to the right (axis 2) in the figures of the
 guide. Stress points C, D, E, F go round the section from its upper right corner.
+Shear factors and torsion constants are those of `beam_library.py` where it has them.
 """
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
 
 from fem.arrays import Float64
 from fem.cross_sections.analysis import SectionConstants, analyse
+from fem.cross_sections.beam_library import ROUND, library_values
 from fem.errors import nearest
 
 Box = tuple[float, float, float, float]  # y from, y to, z from, z to
-
-# Poisson's ratio in Cowper's shear factors of round sections.
-_POISSON = 0.3
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,7 +54,22 @@ def section(kind: str, dimensions: Sequence[float]) -> Section:
 
 @lru_cache(maxsize=4096)
 def _section(kind: str, dims: tuple[float, ...]) -> Section:
-    if kind in ("ROD", "TUBE", "TUBE2"):
+    shape = analysed(kind, dims)
+    known = library_values(kind, dims, shape.constants.area)
+    if known is None:
+        return shape
+    k1, k2, j = known
+    j = shape.constants.j if j is None else j
+    return replace(shape, constants=replace(shape.constants, k1=k1, k2=k2, j=j))
+
+
+def analysed(kind: str, dims: tuple[float, ...]) -> Section:
+    """Section of a type by finite elements alone (round ones in closed form).
+
+    Raises:
+        ValueError: impossible dimensions.
+    """
+    if kind in ROUND:
         return _round(kind, dims)
     if kind == "HEXA":
         return _hexagon(*dims)
@@ -81,22 +95,14 @@ def _round(kind: str, dims: tuple[float, ...]) -> Section:
         )
     area = math.pi * (outer**2 - inner**2)
     inertia = math.pi * (outer**4 - inner**4) / 4.0
-    # Cowper, J. Appl. Mech. 33 (1966).
-    nu, m2 = _POISSON, (inner / outer) ** 2
-    factor = (
-        6
-        * (1 + nu)
-        * (1 + m2) ** 2
-        / ((7 + 6 * nu) * (1 + m2) ** 2 + (20 + 12 * nu) * m2)
-    )
     constants = SectionConstants(
         area=area,
         i1=inertia,
         i2=inertia,
         i12=0.0,
         j=2.0 * inertia,
-        k1=factor,
-        k2=factor,
+        k1=ROUND[kind],
+        k2=ROUND[kind],
         centroid=np.zeros(2),
         shear_centre=np.zeros(2),
     )
