@@ -25,11 +25,14 @@ def gear_in_A(gear: LandingGear, R_AB: Float64) -> LandingGear:
     """A gear whose positions, directions and inertias are given in B, in A."""
     places = {name: _turned(R_AB, getattr(gear, name)) for name in gear.positions}
     parts = {"fitting": gear.fitting, **gear.moving_parts}
-    turned = {name: _part_in_A(part, R_AB) for name, part in parts.items()}
+    turned: dict[str, Any] = {n: _part_in_A(part, R_AB) for n, part in parts.items()}
     further = tuple(
         hold.model_copy(update={"directions": _turned(R_AB, hold.directions)})
         for hold in gear.further_attachments
     )
+    if gear.leg is not None and gear.leg.root is not None:
+        root = _turned(R_AB, gear.leg.root)
+        turned["leg"] = gear.leg.model_copy(update={"root": root})
     return gear.model_copy(update={**places, **turned, "further_attachments": further})
 
 

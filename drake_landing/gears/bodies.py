@@ -7,6 +7,9 @@ kind of gear, and wheels on revolute joints about their axle:
     levered     fitting =revolute= arm =revolute= wheels
     bogie       fitting =prismatic= piston =revolute= beam =revolute= wheels
 
+An elastic leg puts hinges with massless bodies between the fitting and the rest, one for
+bending fore and aft, one for bending to the side, one for torsion (`leg_hinges`).
+
 All body frames are parallel to the airframe frame B in the extended gear, but that all
 below the fitting of a steered gear are turned by its angle: the fitting's origin is the
 attachment point, that of an arm or beam its pivot, a piston's the middle of the axle or
@@ -14,7 +17,7 @@ the beam's pivot, a wheel's its centre.
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import singledispatch
 from typing import cast
 
@@ -40,6 +43,7 @@ from drake_landing.gears.data import (
     RigidPart,
     TelescopicGear,
 )
+from drake_landing.gears.leg_hinges import add_leg_hinges
 from systems.gear.lever_strut import LeverStrut
 from systems.tools.rotations import exp
 
@@ -61,6 +65,7 @@ class GearBodies:
             absorber over the joint `<gear>_pivot` of an arm.
         spins: wheel name to joint `<wheel>_spin`, about the y axis of the wheel.
         pitch: joint `<gear>_pitch` of a bogie beam, else None.
+        hinges: of an elastic leg, by the names of `leg_hinges.KINDS`.
     """
 
     fitting: RigidBody
@@ -69,14 +74,15 @@ class GearBodies:
     strut: PrismaticJoint | LeverStrut
     spins: dict[str, RevoluteJoint]
     pitch: RevoluteJoint | None = None
+    hinges: dict[str, RevoluteJoint] = field(default_factory=dict)
 
     @property
     def joints(self) -> dict[str, PrismaticJoint | RevoluteJoint]:
-        """Joints that settle under load, not the spins: `strut` and `pitch`."""
+        """Joints that settle under load, not the spins: strut, pitch, hinges."""
         strut = self.strut
         joint = strut.joint if isinstance(strut, LeverStrut) else strut
         pitch = {} if self.pitch is None else {"pitch": self.pitch}
-        return {"strut": joint, **pitch}
+        return {"strut": joint, **pitch, **self.hinges}
 
 
 @dataclass(frozen=True)
@@ -101,13 +107,17 @@ def strut_axis(gear: LandingGear) -> Float64:
     return _raked_axis(gear)
 
 
+def leg_axis(gear: LandingGear) -> Float64:
+    """(3,) direction in B about which a leg twists and is steered: upward."""
+    return _raked_axis(gear)  # of a levered gear the up axis
+
+
 def steering(gear: LandingGear) -> RotationMatrix:
     """Turn of all below the fitting; nose to starboard is clockwise from above."""
     angle = math.radians(gear.steering_deg)
     if angle == 0.0:
         return RotationMatrix()
-    levered = isinstance(gear, LeveredGear)
-    axis = np.array([0.0, 0.0, 1.0]) if levered else _raked_axis(gear)
+    axis = leg_axis(gear)
     return RotationMatrix(exp(-angle * axis[None])[0])
 
 
@@ -169,7 +179,10 @@ def AddLandingGear(
     fitting = plant.AddRigidBody(
         f"{gear.name}_fitting", _inertia(gear.fitting, attachment)
     )
-    moving = _add_moving(gear, plant, fitting, attachment)
+    leg = add_leg_hinges(
+        plant, gear, fitting, attachment, centre=_centre(gear), axis=leg_axis(gear)
+    )
+    moving = _add_moving(gear, plant, leg.body, leg.p_BO)
     carrier = list(moving.parts.values())[-1]
     wheels, spins = {}, {}
     straight = gear.model_copy(update={"steering_deg": 0.0})
@@ -190,6 +203,7 @@ def AddLandingGear(
         strut=moving.strut,
         spins=spins,
         pitch=moving.pitch,
+        hinges=leg.hinges,
     )
 
 
@@ -197,6 +211,7 @@ def AddLandingGear(
 def _add_moving(
     gear: LandingGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
 ) -> _Moving:
+    """What moves against the fitting, or below the hinges of its leg; p_BA its origin."""
     raise TypeError(f"landing gear {gear.name}: unknown kind {type(gear).__name__}")
 
 

@@ -17,6 +17,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, TypeAdapter, model_validator
 
+from drake_landing.gears.legs import Leg
 from drake_landing.gears.parts import (
     Brake,
     Data,
@@ -73,6 +74,43 @@ class LandingGear(Data):
     tyre: Tyre
     brake: Brake | None = Field(default=None, description="of every wheel; or none")
     shock_absorber: ShockAbsorber
+    leg: Leg | None = Field(
+        default=None,
+        description="flexibility between fitting and axle; default none, a rigid leg",
+    )
+
+    @model_validator(mode="after")
+    def _leg_over_the_stroke(self) -> Self:
+        """Tables of a leg are over the stroke; its bearings stay apart from the axle."""
+        if self.leg is None:
+            return self
+        stroke, beam = self.shock_absorber.stroke, self.leg.beam
+        if beam is not None and isinstance(self, LeveredGear):
+            raise ValueError(
+                "leg.beam: a levered gear has no piston that slides in its leg, "
+                "expected fore_aft and lateral"
+            )
+        if beam is not None and beam.overhang <= stroke:
+            raise ValueError(
+                f"leg.beam.overhang: found {beam.overhang:g} m, expected more than the "
+                f"stroke, {stroke:g} m"
+            )
+        if beam is not None and beam.bearing_distance + stroke >= beam.cylinder_length:
+            raise ValueError(
+                f"leg.beam.cylinder_length: found {beam.cylinder_length:g} m, expected "
+                "more than bearing_distance and stroke together, "
+                f"{beam.bearing_distance + stroke:g} m"
+            )
+        for name in ("fore_aft", "lateral", "torsion"):
+            elastic = getattr(self.leg, name)
+            for key in ("stiffness_table", "frequency_table"):
+                table = elastic and getattr(elastic, key)
+                if table and table[-1][0] > 3.0 * stroke:
+                    raise ValueError(
+                        f"leg.{name}.{key}: found a stroke of {table[-1][0]:g} m, "
+                        f"expected about {stroke:g} m, the mechanical stroke"
+                    )
+        return self
 
     @model_validator(mode="after")
     def _wheels_apart(self) -> Self:

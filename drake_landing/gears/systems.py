@@ -2,6 +2,7 @@
 
 plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_*, brake_*,
 pitch_damper_* ─▸ gear_forces ─▸ plant
+plant.state ─▸ elastic_legs ─▸ gear_forces
 """
 
 from collections.abc import Mapping, Sequence
@@ -13,6 +14,7 @@ from pydrake.systems.framework import DiagramBuilder
 
 from drake_landing.gears.bodies import GearBodies
 from drake_landing.gears.data import BogieGear, LandingGear
+from drake_landing.gears.leg_laws import elastic_leg, hinge_columns
 from drake_landing.gears.parameters import (
     bogie_pitch_parameters,
     brake_parameters,
@@ -21,6 +23,7 @@ from drake_landing.gears.parameters import (
 )
 from systems.gear.bogie_pitch import BogiePitch
 from systems.gear.brake import Brake
+from systems.gear.elastic_legs import ElasticLegs
 from systems.gear.gear_forces import GearForces
 from systems.gear.lever_strut import LeverStrut
 from systems.gear.wheel_kinematics import WheelKinematics
@@ -40,6 +43,7 @@ class GearSystems:
         shock_absorbers: by gear.
         brakes: by wheel; of gears that have them.
         pitch_dampers: by gear; of bogies.
+        elastic_legs: one for all legs that are elastic; None where all are rigid.
     """
 
     wheel_kinematics: WheelKinematics = field(repr=False)
@@ -48,6 +52,7 @@ class GearSystems:
     shock_absorbers: dict[str, Any] = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
+    elastic_legs: ElasticLegs | None = field(default=None, repr=False)
 
     @property
     def by_name(self) -> dict[str, Any]:
@@ -58,7 +63,8 @@ class GearSystems:
             "brake": self.brakes,
             "pitch_damper": self.pitch_dampers,
         }
-        return {f"{k}_{n}": s for k, group in kinds.items() for n, s in group.items()}
+        found = {f"{k}_{n}": s for k, group in kinds.items() for n, s in group.items()}
+        return found | ({"elastic_legs": self.elastic_legs} if self.elastic_legs else {})
 
 
 def AddGearSystems(
@@ -74,7 +80,8 @@ def AddGearSystems(
 
     They are named `wheel_kinematics`, `gear_forces`, `tire_<wheel>`,
     `shock_absorber_<gear>`, for gears that have them `brake_<wheel>` and
-    `pitch_damper_<gear>`, and where bearings rub `side_load_<gear>`. One connection is
+    `pitch_damper_<gear>`, where bearings rub `side_load_<gear>`, and for all gears that
+    bend `elastic_legs`. One connection is
     left to the caller: the port `spatial_forces` of `gear_forces` belongs to the
     plant's `applied_spatial_force`, alone or joined with other forces.
 
@@ -103,8 +110,10 @@ def AddGearSystems(
     kinematics = builder.AddNamedSystem(
         "wheel_kinematics", WheelKinematics(plant, wheels, struts, spins, pitches)
     )
+    legs = _add_elastic_legs(builder, plant, gears, bodies)
     forces = builder.AddNamedSystem(
-        "gear_forces", GearForces(plant, wheels, struts, spins, pitches)
+        "gear_forces",
+        GearForces(plant, wheels, struts, spins, pitches, elastic_legs=legs is not None),
     )
     systems = GearSystems(
         wheel_kinematics=kinematics,
@@ -113,6 +122,7 @@ def AddGearSystems(
         shock_absorbers={},
         brakes={},
         pitch_dampers={},
+        elastic_legs=legs,
     )
     for gear in gears:
         _add_laws(builder, gear, runway, systems)
@@ -127,10 +137,28 @@ def AddGearSystems(
             ratio = f"strut_ratio_{name}"
             _connect(builder, kinematics, ratio, forces, f"ratio_{name}")
     _connect(builder, kinematics, "wheel_jacobian", forces, "wheel_jacobian")
+    if legs is not None:
+        _connect(builder, legs, "generalized_force", forces, "elastic_legs")
     if connect_plant:
         applied = "applied_generalized_force"
         _connect(builder, forces, "generalized_force", plant, applied)
     return systems
+
+
+def _add_elastic_legs(
+    builder: DiagramBuilder,
+    plant: MultibodyPlant,
+    gears: Sequence[LandingGear],
+    bodies: Mapping[str, GearBodies],
+) -> ElasticLegs | None:
+    elastic = [gear for gear in gears if bodies[gear.name].hinges]
+    if not elastic:
+        return None
+    laws = {gear.name: elastic_leg(plant, gear, bodies[gear.name]) for gear in elastic}
+    columns = {gear.name: hinge_columns(bodies[gear.name]) for gear in elastic}
+    legs = builder.AddNamedSystem("elastic_legs", ElasticLegs(plant, laws, columns))
+    _connect(builder, plant, "state", legs, "plant_state")
+    return legs
 
 
 def _add_laws(

@@ -7,7 +7,7 @@
 
 Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_forces`,
 `tire_<wheel>`, `shock_absorber_<gear>` and `energy_budget`; where there are such,
-`brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>` and `lift`.
+`brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>`, `elastic_legs` and `lift`.
 """
 
 from collections.abc import Sequence
@@ -32,6 +32,7 @@ from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
 from systems.attachment.attachment import Attachment, RigidAttachment
 from systems.attachment.bushing_attachment import BushingAttachment
+from systems.gear.elastic_legs import ElasticLegs
 from systems.gear.energy_budget import AddEnergyBudget, EnergyBudget
 from systems.gear.gear_forces import GearForces
 from systems.gear.wheel_kinematics import WheelKinematics
@@ -46,6 +47,7 @@ _LOGGED = {
     "shock_absorber": ("force", "components", "energy"),
     "brake": ("torque",),
     "pitch_damper": ("torque", "energy"),
+    "elastic_legs": ("energy",),
     "lift": ("force",),
 }
 
@@ -75,11 +77,13 @@ class LandingDiagram:
         shock_absorbers: by gear.
         brakes: by wheel, of gears that have them.
         pitch_dampers: by gear, of bogies.
+        elastic_legs: of all gears that bend; None where none does.
         bodies: bodies and joints, by gear.
         lift: None where lift equals weight and neither acts.
         energy_budget: None where not asked for.
         loggers: by "<system>.<port>", one sample per integration step; stroke and rate
-            of a gear as "strut_<gear>.strut".
+            of a gear as "strut_<gear>.strut", what a leg bends as
+            "elastic_legs.deflection_<gear>".
         body, gears, runway, gravity: what it was made from.
     """
 
@@ -93,6 +97,7 @@ class LandingDiagram:
     shock_absorbers: dict[str, Any] = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
+    elastic_legs: ElasticLegs | None = field(repr=False)
     bodies: dict[str, GearBodies] = field(repr=False)
     lift: DistributedLoad | None = field(repr=False)
     energy_budget: EnergyBudget | None = field(repr=False)
@@ -187,7 +192,7 @@ def MakeLandingDiagram(
         others = [system for name, system in systems.items() if name != "plant"]
         budget = AddEnergyBudget(builder, plant, others)
         systems["energy_budget"] = budget
-    loggers = _add_loggers(builder, systems, parts) if log else {}
+    loggers = _add_loggers(builder, systems, parts, bodies) if log else {}
     diagram = builder.Build()
     diagram.set_name("landing")
     return LandingDiagram(
@@ -201,6 +206,7 @@ def MakeLandingDiagram(
         shock_absorbers=parts.shock_absorbers,
         brakes=parts.brakes,
         pitch_dampers=parts.pitch_dampers,
+        elastic_legs=parts.elastic_legs,
         bodies=bodies,
         lift=carrying,
         energy_budget=budget,
@@ -236,7 +242,10 @@ def _connect_attachment(
 
 
 def _add_loggers(
-    builder: DiagramBuilder, systems: dict[str, LeafSystem], parts: GearSystems
+    builder: DiagramBuilder,
+    systems: dict[str, LeafSystem],
+    parts: GearSystems,
+    bodies: dict[str, GearBodies],
 ) -> dict[str, VectorLogSink]:
     ports = {}
     for name, system in systems.items():
@@ -246,6 +255,9 @@ def _add_loggers(
     for gear in parts.shock_absorbers:
         port = parts.wheel_kinematics.GetOutputPort(f"strut_{gear}")
         ports[f"strut_{gear}.strut"] = port
+    for gear in [g for g, b in bodies.items() if b.hinges]:
+        port = systems["elastic_legs"].GetOutputPort(f"deflection_{gear}")
+        ports[f"elastic_legs.deflection_{gear}"] = port
     loggers = {name: LogVectorOutput(port, builder) for name, port in ports.items()}
     for name, logger in loggers.items():
         logger.set_name("log " + name.replace(".", " "))

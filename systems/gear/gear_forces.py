@@ -5,7 +5,7 @@ alone would not be felt by the attachment load. One system with one pair of outp
 wired to both, makes that impossible.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,9 +31,11 @@ class GearForces(LeafSystem):
       the opposite torque acts on the piston |
     | in `brake_<wheel>` (for braked wheels) | 1 | N m | torque on the wheel about its
       joint axis; the opposite torque acts on the axle |
+    | in `elastic_legs` (where there are such) | nv | N, N m | of ElasticLegs |
     | in `wheel_jacobian` (for all_generalized_force) | 6 k nv | | of WheelKinematics |
     | out `spatial_forces` | abstract | | list of ExternallyAppliedSpatialForce |
-    | out `generalized_force` | nv | N, N m | of struts, brakes and pitch dampers |
+    | out `generalized_force` | nv | N, N m | of struts, brakes, pitch dampers and elastic
+      legs |
     | out `all_generalized_force` | nv | N, N m | the same and the tyres: all in one |
 
     Plant and attachment get either the first two outputs or the last one, which takes
@@ -46,6 +48,7 @@ class GearForces(LeafSystem):
             absorber of an arm.
         brakes: name to spin joint of each braked wheel.
         pitches: name to joint of each bogie beam.
+        elastic_legs: some leg is elastic.
     """
 
     def __init__(
@@ -55,6 +58,7 @@ class GearForces(LeafSystem):
         struts: Mapping[str, PrismaticJoint | LeverStrut],
         brakes: Mapping[str, RevoluteJoint] | None = None,
         pitches: Mapping[str, RevoluteJoint] | None = None,
+        elastic_legs: bool = False,
     ) -> None:
         super().__init__()
         brakes, pitches = brakes or {}, pitches or {}
@@ -66,6 +70,7 @@ class GearForces(LeafSystem):
             *self._inputs("brake", brakes, 1),
             *self._inputs("pitch", pitches, 1),
         )
+        self._elastic = self._inputs("elastic", ["legs"] * elastic_legs, self._nv)
         levers = {n: s.joint for n, s in struts.items() if isinstance(s, LeverStrut)}
         self._ratios = self._inputs("ratio", levers, 1)
         self._jacobian: Any = self.DeclareVectorInputPort(
@@ -83,7 +88,9 @@ class GearForces(LeafSystem):
             self._calc_spatial_forces,
             {port.ticket() for port in self._tires},
         )
-        joint_loads = {port.ticket() for port in (*self._joints, *self._ratios)}
+        joint_loads = {
+            port.ticket() for port in (*self._joints, *self._ratios, *self._elastic)
+        }
         self.DeclareVectorOutputPort(
             "generalized_force",
             self._nv,
@@ -97,7 +104,7 @@ class GearForces(LeafSystem):
             joint_loads | {port.ticket() for port in (*self._tires, self._jacobian)},
         )
 
-    def _inputs(self, kind: str, names: Mapping, size: int) -> tuple:
+    def _inputs(self, kind: str, names: Iterable[str], size: int) -> tuple:
         declare = self.DeclareVectorInputPort
         return tuple(declare(f"{kind}_{name}", size) for name in names)
 
@@ -119,6 +126,8 @@ class GearForces(LeafSystem):
         for i, port in zip(self._levers, self._ratios):
             forces[i] *= port.Eval(context)[0]
         out[self._rows] = self._signs * forces
+        for port in self._elastic:
+            out += port.Eval(context)
         return out
 
 

@@ -1,0 +1,153 @@
+"""How elastic a leg is: validated data, as written in a case file.
+
+A leg is clamped at its root by the fitting and bends below it, fore and aft and to the
+side, and twists about the strut axis. What is absent is rigid. Frequencies are those of
+the leg alone: root clamped, shock absorber locked, wheels and bogie beam free to turn,
+off the ground, one motion at a time. SI units except angles in degrees.
+"""
+
+from typing import Annotated, Self
+
+from pydantic import AfterValidator, Field, model_validator
+
+from drake_landing.gears.parts import Data, Positive, Table, Vector3
+
+_HIGHEST = 200.0  # Hz
+
+
+def _positive(table: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    if table[0][0] < 0.0:
+        raise ValueError(f"stroke {table[0][0]:g} m, expected >= 0")
+    for _, y in table:
+        if not y > 0.0:
+            raise ValueError(f"{y:g} found, expected > 0")
+    return table
+
+
+OverStroke = Annotated[Table, AfterValidator(_positive)]
+Frequency = Annotated[Positive, Field(le=_HIGHEST)]
+
+
+class Elastic(Data):
+    """A stiffness, or the frequency that it gives; exactly one of the four."""
+
+    stiffness: Positive | None = Field(
+        default=None,
+        description="at the axle (of a bogie: at the pivot of its beam) at every "
+        "stroke, N/m; of the torsion N m/rad; > 0",
+    )
+    stiffness_table: OverStroke | None = Field(
+        default=None, description="stroke (m, ascending) against stiffness"
+    )
+    frequency: Frequency | None = Field(
+        default=None,
+        description=f"of the extended leg, Hz, > 0 and <= {_HIGHEST:g}; the stiffness "
+        "against turning about the root is the same at every stroke",
+    )
+    frequency_table: OverStroke | None = Field(
+        default=None,
+        description="stroke (m, ascending) against frequency (Hz), e.g. extended and "
+        "at the static stroke",
+    )
+    damping_ratio: float = Field(
+        default=0.03,
+        ge=0,
+        lt=1,
+        description="of critical, at every stroke, >= 0 and < 1; tests of gears show "
+        "0.01 to 0.05",
+    )
+
+    @model_validator(mode="after")
+    def _one_law(self) -> Self:
+        names = ("stiffness", "stiffness_table", "frequency", "frequency_table")
+        given = [name for name in names if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise ValueError(
+                f"found {' and '.join(given) or 'none'}, expected one of "
+                f"{', '.join(names)}"
+            )
+        return self
+
+
+class Torsion(Elastic):
+    """Of the torque links, with piston and cylinder, about the strut axis."""
+
+    free_play_deg: float = Field(
+        default=0.0,
+        ge=0,
+        le=5,
+        description="half width of the play of the torque links, degrees, 0 to 5",
+    )
+
+
+class LegBeam(Data):
+    """Cylinder and piston as beams: a cantilever that guides a beam by two bearings.
+
+    The lower bearing is fixed to the cylinder, the upper one to the piston, so that
+    their distance grows with the stroke as the overhang falls.
+    """
+
+    cylinder_bending: Positive = Field(
+        description="EI of the cylinder, N m², > 0; against bending fore and aft"
+    )
+    piston_bending: Positive = Field(description="EI of the piston, N m², > 0")
+    cylinder_bending_lateral: Positive | None = Field(
+        default=None,
+        description="EI of the cylinder to the side, with its stays, N m²; default the "
+        "same",
+    )
+    cylinder_length: Positive = Field(
+        le=10, description="root, where it is clamped, to lower bearing, m"
+    )
+    overhang: Positive = Field(
+        le=5, description="lower bearing to axle (bogie: pivot), gear extended, m"
+    )
+    bearing_distance: Positive = Field(
+        le=5, description="upper to lower bearing, gear extended, m"
+    )
+    damping_ratio: float = Field(
+        default=0.03, ge=0, lt=1, description="of critical, >= 0 and < 1"
+    )
+
+    @model_validator(mode="after")
+    def _guided(self) -> Self:
+        if self.bearing_distance >= self.cylinder_length:
+            raise ValueError(
+                f"bearing_distance {self.bearing_distance:g} m, expected less than "
+                f"cylinder_length {self.cylinder_length:g} m"
+            )
+        return self
+
+
+class Leg(Data):
+    """Flexibility of a leg between fitting and axle."""
+
+    root: Vector3 | None = Field(
+        default=None,
+        description="point in B about which the leg turns as it bends, m; default the "
+        "attachment node, of a beam where its deflection and slope at the axle have it",
+    )
+    fore_aft: Elastic | None = Field(
+        default=None, description="bending fore and aft; default rigid"
+    )
+    lateral: Elastic | None = Field(
+        default=None, description="bending to the side; default rigid"
+    )
+    beam: LegBeam | None = Field(
+        default=None, description="both bendings from the beams of the leg"
+    )
+    torsion: Torsion | None = Field(
+        default=None, description="about the strut axis; default rigid"
+    )
+
+    @model_validator(mode="after")
+    def _some_law(self) -> Self:
+        own = [n for n in ("fore_aft", "lateral") if getattr(self, n) is not None]
+        if self.beam is not None and (own or self.root):
+            found = own[0] if own else "root"
+            raise ValueError(f"found beam and {found}, expected one of them")
+        if self.beam is None and not own and self.torsion is None:
+            raise ValueError(
+                "found nothing that bends, expected fore_aft, lateral, torsion or beam"
+            )
+        return self
