@@ -91,8 +91,8 @@ class _DropLaw:
     ) -> None:
         self._wheels = len(gear.wheel_names)
         self._share = share
-        self._sprung = share + gear.fitting.mass
-        self._unsprung = gear.mass - gear.fitting.mass
+        self._sprung = share + gear.sprung_mass
+        self._unsprung = gear.mass - gear.sprung_mass
         self._spin = gear.wheel.spin_inertia
         self._speed, self._friction = speed, friction
         strut = shock_absorber_parameters(gear.shock_absorber)

@@ -70,7 +70,7 @@ def gear_problems(
     problems = []
     for gear in gears:
         node = places[gear.name]
-        parts = {"fitting": gear.fitting, **gear.moving_parts}
+        parts = gear.sprung_parts | gear.moving_parts
         points = {f"{name}.cg": np.array(part.cg) for name, part in parts.items()}
         points |= {
             name: np.atleast_2d(getattr(gear, name))[0] for name in gear.positions
@@ -156,7 +156,7 @@ def static_loads(
 
 def _gas_remarks(gear: LandingGear, load: float) -> list[str]:
     parameters = shock_absorber_parameters(gear.shock_absorber)
-    below = (gear.mass - gear.fitting.mass) * STANDARD_GRAVITY
+    below = (gear.mass - gear.sprung_mass) * STANDARD_GRAVITY
     wanted = (load - below) * _strut_share(gear)
     full = StrutLaw(parameters).gas_force(parameters.max_stroke, parameters.tunables)
     preload = parameters.gas.precharge

@@ -24,7 +24,7 @@ def rotation_AB(axes: Axes) -> Float64:
 def gear_in_A(gear: LandingGear, R_AB: Float64) -> LandingGear:
     """A gear whose positions, directions and inertias are given in B, in A."""
     places = {name: _turned(R_AB, getattr(gear, name)) for name in gear.positions}
-    parts = {"fitting": gear.fitting, **gear.moving_parts}
+    parts = gear.sprung_parts | gear.moving_parts
     turned: dict[str, Any] = {n: _part_in_A(part, R_AB) for n, part in parts.items()}
     further = tuple(
         hold.model_copy(update={"directions": _turned(R_AB, hold.directions)})

@@ -7,8 +7,8 @@ kind of gear, and wheels on revolute joints about their axle:
     levered     fitting =revolute= arm =revolute= wheels
     bogie       fitting =prismatic= piston =revolute= beam =revolute= wheels
 
-An elastic leg puts hinges with massless bodies between the fitting and the rest, one for
-bending fore and aft, one for bending to the side, one for torsion (`leg_hinges`).
+An elastic leg puts hinges between the fitting and the rest, for bending fore and aft
+and to the side, and for torsion (`leg_hinges`).
 
 All body frames are parallel to the airframe frame B in the extended gear, but that all
 below the fitting of a steered gear are turned by its angle: the fitting's origin is the
@@ -31,7 +31,6 @@ from pydrake.multibody.tree import (
     PrismaticJoint,
     RevoluteJoint,
     RigidBody,
-    RotationalInertia,
     SpatialInertia,
     UnitInertia,
 )
@@ -43,7 +42,7 @@ from drake_landing.gears.data import (
     RigidPart,
     TelescopicGear,
 )
-from drake_landing.gears.leg_hinges import add_leg_hinges
+from drake_landing.gears.leg_hinges import add_leg_hinges, part_inertia
 from systems.gear.lever_strut import LeverStrut
 from systems.tools.rotations import exp
 
@@ -133,7 +132,7 @@ def wheel_centres(gear: LandingGear) -> dict[str, Float64]:
 
 def mass_points(gear: LandingGear) -> list[tuple[float, Float64]]:
     """Mass (kg) and centre of gravity (3,) in B (m) of each body, gear extended."""
-    points = [(gear.fitting.mass, np.array(gear.fitting.cg))]
+    points = [(part.mass, np.array(part.cg)) for part in gear.sprung_parts.values()]
     parts = gear.moving_parts.values()
     points += [(part.mass, _steered(gear, part.cg)) for part in parts]
     return points + [(gear.wheel.mass, p) for p in wheel_centres(gear).values()]
@@ -177,7 +176,7 @@ def AddLandingGear(
     """
     attachment = np.asarray(p_BA, dtype=float)
     fitting = plant.AddRigidBody(
-        f"{gear.name}_fitting", _inertia(gear.fitting, attachment)
+        f"{gear.name}_fitting", part_inertia(gear.fitting, attachment)
     )
     leg = add_leg_hinges(
         plant, gear, fitting, attachment, centre=_centre(gear), axis=leg_axis(gear)
@@ -211,7 +210,7 @@ def AddLandingGear(
 def _add_moving(
     gear: LandingGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
 ) -> _Moving:
-    """What moves against the fitting, or below the hinges of its leg; p_BA its origin."""
+    """What moves against the fitting, or the body below its hinges; p_BA its origin."""
     raise TypeError(f"landing gear {gear.name}: unknown kind {type(gear).__name__}")
 
 
@@ -229,7 +228,7 @@ def _(
     gear: LeveredGear, plant: MultibodyPlant, fitting: RigidBody, p_BA: Float64
 ) -> _Moving:
     pivot = np.array(gear.pivot)
-    arm = plant.AddRigidBody(f"{gear.name}_arm", _inertia(gear.arm, pivot))
+    arm = plant.AddRigidBody(f"{gear.name}_arm", part_inertia(gear.arm, pivot))
     joint = plant.AddJoint(
         RevoluteJoint(
             f"{gear.name}_pivot",
@@ -259,7 +258,7 @@ def _(
 ) -> _Moving:
     pivot = np.array(gear.pivot)
     piston, strut = _add_piston(plant, gear, gear.piston, pivot, fitting, p_BA)
-    beam = plant.AddRigidBody(f"{gear.name}_beam", _inertia(gear.beam, pivot))
+    beam = plant.AddRigidBody(f"{gear.name}_beam", part_inertia(gear.beam, pivot))
     pitch = plant.AddJoint(
         RevoluteJoint(
             f"{gear.name}_pitch", piston.body_frame(), beam.body_frame(), _LATERAL
@@ -277,7 +276,7 @@ def _add_piston(
     fitting: RigidBody,
     p_BA: Float64,
 ) -> tuple[RigidBody, PrismaticJoint]:
-    piston = plant.AddRigidBody(f"{gear.name}_piston", _inertia(part, p_BP))
+    piston = plant.AddRigidBody(f"{gear.name}_piston", part_inertia(part, p_BP))
     strut = plant.AddJoint(
         PrismaticJoint(
             f"{gear.name}_strut",
@@ -300,12 +299,6 @@ def _offset(
 ) -> Frame:
     X = RigidTransform(R or RotationMatrix(), p)
     return plant.AddFrame(FixedOffsetFrame(name, body.body_frame(), X))
-
-
-def _inertia(part: RigidPart, origin: Float64) -> SpatialInertia:
-    return SpatialInertia.MakeFromCentralInertia(
-        part.mass, np.array(part.cg) - origin, RotationalInertia(*part.inertia)
-    )
 
 
 def _wheel_inertia(gear: LandingGear) -> SpatialInertia:

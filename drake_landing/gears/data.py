@@ -17,7 +17,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, TypeAdapter, model_validator
 
-from drake_landing.gears.legs import Leg
+from drake_landing.gears.legs import Leg, require_over_stroke
 from drake_landing.gears.parts import (
     Brake,
     Data,
@@ -74,42 +74,26 @@ class LandingGear(Data):
     tyre: Tyre
     brake: Brake | None = Field(default=None, description="of every wheel; or none")
     shock_absorber: ShockAbsorber
+    cylinder: RigidPart | None = Field(
+        default=None,
+        description="what of the leg is sprung but swings as it bends, beside the "
+        "fitting, which then is what the airframe clamps; default none",
+    )
     leg: Leg | None = Field(
         default=None,
         description="flexibility between fitting and axle; default none, a rigid leg",
     )
 
     @model_validator(mode="after")
-    def _leg_over_the_stroke(self) -> Self:
-        """Tables of a leg are over the stroke; its bearings stay apart from the axle."""
-        if self.leg is None:
-            return self
-        stroke, beam = self.shock_absorber.stroke, self.leg.beam
-        if beam is not None and isinstance(self, LeveredGear):
+    def _leg_fits(self) -> Self:
+        if self.cylinder is not None and not (self.leg and self.leg.bends):
             raise ValueError(
-                "leg.beam: a levered gear has no piston that slides in its leg, "
-                "expected fore_aft and lateral"
+                "cylinder: found one on a leg that does not bend, expected its mass in "
+                "fitting, or leg.fore_aft, leg.lateral or leg.beam"
             )
-        if beam is not None and beam.overhang <= stroke:
-            raise ValueError(
-                f"leg.beam.overhang: found {beam.overhang:g} m, expected more than the "
-                f"stroke, {stroke:g} m"
-            )
-        if beam is not None and beam.bearing_distance + stroke >= beam.cylinder_length:
-            raise ValueError(
-                f"leg.beam.cylinder_length: found {beam.cylinder_length:g} m, expected "
-                "more than bearing_distance and stroke together, "
-                f"{beam.bearing_distance + stroke:g} m"
-            )
-        for name in ("fore_aft", "lateral", "torsion"):
-            elastic = getattr(self.leg, name)
-            for key in ("stiffness_table", "frequency_table"):
-                table = elastic and getattr(elastic, key)
-                if table and table[-1][0] > 3.0 * stroke:
-                    raise ValueError(
-                        f"leg.{name}.{key}: found a stroke of {table[-1][0]:g} m, "
-                        f"expected about {stroke:g} m, the mechanical stroke"
-                    )
+        if self.leg is not None:
+            sliding = not isinstance(self, LeveredGear)
+            require_over_stroke(self.leg, self.shock_absorber.stroke, sliding)
         return self
 
     @model_validator(mode="after")
@@ -147,6 +131,17 @@ class LandingGear(Data):
         raise TypeError("a landing gear is one of its kinds")
 
     @property
+    def sprung_parts(self) -> dict[str, RigidPart]:
+        """Rigid parts above the shock absorber's stroke, by name."""
+        cylinder = {} if self.cylinder is None else {"cylinder": self.cylinder}
+        return {"fitting": self.fitting, **cylinder}
+
+    @property
+    def sprung_mass(self) -> float:
+        """Of the sprung parts, kg."""
+        return sum(part.mass for part in self.sprung_parts.values())
+
+    @property
     def moving_parts(self) -> dict[str, RigidPart]:
         """Rigid parts between fitting and wheels, by name."""
         raise TypeError("a landing gear is one of its kinds")
@@ -180,7 +175,7 @@ class LandingGear(Data):
     def mass(self) -> float:
         """Of the whole gear, kg."""
         parts = sum(part.mass for part in self.moving_parts.values())
-        return self.fitting.mass + parts + len(self.wheel_names) * self.wheel.mass
+        return self.sprung_mass + parts + len(self.wheel_names) * self.wheel.mass
 
 
 class TelescopicGear(LandingGear):

@@ -1,10 +1,12 @@
-"""The hinges of an elastic leg, in a plant: massless bodies between fitting and strut.
+"""The hinges of an elastic leg, in a plant: bodies between fitting and strut.
 
     fitting =fore_aft= . =lateral= . =torsion= what moves
 
-Fore and aft turns about the axis to port (lower end aft > 0), lateral about the axis aft
-and across the strut (lower end to starboard > 0), torsion about the strut axis, up. The hinges of bending lie at the root, that of torsion on the strut axis. All frames
-are parallel to B in the extended gear.
+Fore and aft turns about the axis to port (lower end aft > 0), lateral about the axis
+aft and across the strut (lower end to starboard > 0), torsion about the strut axis, up.
+The bodies between are massless but for the cylinder, where there is one, which is above
+the torsion. The hinges of bending lie at the root, that of torsion on the strut axis.
+All frames are parallel to B in the extended gear.
 """
 
 from dataclasses import dataclass, field
@@ -18,10 +20,11 @@ from pydrake.multibody.tree import (
     FixedOffsetFrame,
     RevoluteJoint,
     RigidBody,
+    RotationalInertia,
     SpatialInertia,
 )
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.data import LandingGear, RigidPart
 from drake_landing.gears.leg_beam import root_distance
 from drake_landing.gears.legs import Leg
 
@@ -68,9 +71,14 @@ def add_leg_hinges(
         axis: (3,) in B, of the strut, up.
     """
     body, origin, hinges = fitting, p_BA, {}
-    for kind in elastic_kinds(gear.leg):
+    kinds = elastic_kinds(gear.leg)
+    last_bending = next((k for k in reversed(kinds) if k != "torsion"), None)
+    for kind in kinds:
         place = _root(gear, kind, p_BA, centre, axis)
-        lower = plant.AddRigidBody(f"{gear.name}_below_{kind}", SpatialInertia.Zero())
+        inertia = SpatialInertia.Zero()
+        if gear.cylinder is not None and kind == last_bending:
+            inertia = part_inertia(gear.cylinder, place)
+        lower = plant.AddRigidBody(f"{gear.name}_below_{kind}", inertia)
         X = RigidTransform(place - origin)
         frame = FixedOffsetFrame(f"{gear.name}_{kind}_root", body.body_frame(), X)
         joint = RevoluteJoint(
@@ -82,6 +90,13 @@ def add_leg_hinges(
         hinges[kind] = cast(RevoluteJoint, plant.AddJoint(joint))
         body, origin = lower, place
     return LegHinges(body, origin, hinges)
+
+
+def part_inertia(part: RigidPart, p_BO: Float64) -> SpatialInertia:
+    """About the origin of a body at p_BO (3,) in B whose axes are those of B."""
+    return SpatialInertia.MakeFromCentralInertia(
+        part.mass, np.array(part.cg) - p_BO, RotationalInertia(*part.inertia)
+    )
 
 
 def elastic_kinds(leg: Leg | None) -> tuple[str, ...]:

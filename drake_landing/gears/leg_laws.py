@@ -1,8 +1,8 @@
-"""Stiffness and damping of a leg's hinges over the stroke, from data and from the plant.
+"""Stiffness and damping of a leg's hinges over the stroke: from data and the plant.
 
-With h the distance of the hinge from the axle along the strut, of the deflection across
-it per angle, and I the inertia about the hinge that swings (root clamped, shock absorber
-locked, wheels and bogie beam free to turn, the other hinges locked):
+With h the deflection of the axle across the strut per angle of the hinge, and I the
+inertia about the hinge that swings (root clamped, shock absorber locked, wheels and
+bogie beam free to turn, the other hinges locked):
 
     given                          K of the hinge
     stiffness k at the axle        k h²
@@ -50,14 +50,14 @@ def elastic_leg(
         ValueError: the root of the leg lies at the height of the axle.
     """
     leg, kinds = gear.leg, tuple(bodies.hinges)
-    assert leg is not None and kinds
+    assert leg is not None
     context = plant.CreateDefaultContext()
-    strokes = np.linspace(0.0, gear.shock_absorber.stroke, _POSITIONS)
+    end = _position(bodies, gear.shock_absorber.stroke)
     stiffness = np.zeros((_POSITIONS, len(kinds), len(kinds)))
     damping = np.zeros_like(stiffness)
     extended: dict[str, float] = {}
-    for i, stroke in enumerate(strokes.tolist()):
-        _set_stroke(bodies, context, stroke)
+    for i, position in enumerate(np.linspace(0.0, end, _POSITIONS).tolist()):
+        stroke = _set_position(bodies, context, position)
         for j, kind in enumerate(kinds):
             inertia = _swinging_inertia(plant, bodies, kind, context)
             extended.setdefault(kind, inertia)
@@ -78,7 +78,7 @@ def elastic_leg(
         hinges=tuple(bodies.hinges.values()),
         strut=_joint(bodies),
         start=0.0,
-        end=_position(bodies, gear.shock_absorber.stroke),
+        end=end,
         stiffness=stiffness,
         damping=damping,
         free_play=np.radians(play),
@@ -117,12 +117,14 @@ def _position(bodies: GearBodies, stroke: float) -> float:
     return strut.geometry.angle(stroke) if isinstance(strut, LeverStrut) else stroke
 
 
-def _set_stroke(bodies: GearBodies, context: Context, stroke: float) -> None:
-    joint, position = _joint(bodies), _position(bodies, stroke)
-    if isinstance(joint, PrismaticJoint):
-        joint.set_translation(context, position)
-    else:
-        joint.set_angle(context, position)
+def _set_position(bodies: GearBodies, context: Context, position: float) -> float:
+    """Moves the joint of the strut, and returns the stroke, m."""
+    strut = bodies.strut
+    if isinstance(strut, LeverStrut):
+        strut.joint.set_angle(context, position)
+        return strut.geometry.stroke(position)
+    strut.set_translation(context, position)
+    return position
 
 
 def _swinging_inertia(
@@ -150,7 +152,7 @@ def _arm(
     body = list(bodies.parts.values())[-1].body_frame()
     at = np.zeros(3)
     if "arm" in bodies.parts:
-        at = np.array(gear.axles[0]) - np.array(getattr(gear, "pivot"))
+        at = np.array(gear.axles[0]) - np.array(gear.pivot)
     world = plant.world_frame()
     jacobian = plant.CalcJacobianTranslationalVelocity(
         context, JacobianWrtVariable.kV, body, at, world, world

@@ -151,3 +151,47 @@ class Leg(Data):
                 "found nothing that bends, expected fore_aft, lateral, torsion or beam"
             )
         return self
+
+    @property
+    def bends(self) -> bool:
+        """Not only twists."""
+        return bool(self.beam or self.fore_aft or self.lateral)
+
+
+def require_over_stroke(leg: Leg, stroke: float, sliding: bool) -> None:
+    """Checks a leg against the stroke (m) of its gear, `sliding` a piston or not.
+
+    Raises:
+        ValueError: tables reach far beyond the stroke, or the beams do not hold it.
+    """
+    beam = leg.beam
+    if beam is not None:
+        _require_beam(beam, stroke, sliding)
+    for name in ("fore_aft", "lateral", "torsion"):
+        elastic = getattr(leg, name)
+        for key in ("stiffness_table", "frequency_table"):
+            table = elastic and getattr(elastic, key)
+            if table and table[-1][0] > 3.0 * stroke:
+                raise ValueError(
+                    f"leg.{name}.{key}: found a stroke of {table[-1][0]:g} m, expected "
+                    f"about {stroke:g} m, the mechanical stroke"
+                )
+
+
+def _require_beam(beam: LegBeam, stroke: float, sliding: bool) -> None:
+    if not sliding:
+        raise ValueError(
+            "leg.beam: a levered gear has no piston that slides in its leg, expected "
+            "fore_aft and lateral"
+        )
+    if beam.overhang <= stroke:
+        raise ValueError(
+            f"leg.beam.overhang: found {beam.overhang:g} m, expected more than the "
+            f"stroke, {stroke:g} m"
+        )
+    least = beam.bearing_distance + stroke
+    if beam.cylinder_length <= least:
+        raise ValueError(
+            f"leg.beam.cylinder_length: found {beam.cylinder_length:g} m, expected "
+            f"more than bearing_distance and stroke together, {least:g} m"
+        )

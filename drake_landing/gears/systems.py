@@ -64,7 +64,9 @@ class GearSystems:
             "pitch_damper": self.pitch_dampers,
         }
         found = {f"{k}_{n}": s for k, group in kinds.items() for n, s in group.items()}
-        return found | ({"elastic_legs": self.elastic_legs} if self.elastic_legs else {})
+        return found | (
+            {"elastic_legs": self.elastic_legs} if self.elastic_legs else {}
+        )
 
 
 def AddGearSystems(
@@ -113,7 +115,9 @@ def AddGearSystems(
     legs = _add_elastic_legs(builder, plant, gears, bodies)
     forces = builder.AddNamedSystem(
         "gear_forces",
-        GearForces(plant, wheels, struts, spins, pitches, elastic_legs=legs is not None),
+        GearForces(
+            plant, wheels, struts, spins, pitches, elastic_legs=legs is not None
+        ),
     )
     systems = GearSystems(
         wheel_kinematics=kinematics,

@@ -84,10 +84,12 @@ def _require_definite(name: str, matrices: Float64, least: float) -> None:
     uneven = np.abs(matrices - matrices.transpose(0, 2, 1)).max()
     lowest = np.linalg.eigvalsh(matrices).min()
     # Rounding of the eigenvalues of a semidefinite matrix.
-    if uneven > 1e-9 * scale or not lowest >= least - (1e-12 * scale if not least else 0):
+    if uneven > 1e-9 * scale or not lowest >= least - (
+        1e-12 * scale if not least else 0
+    ):
         raise ValueError(
-            f"elastic leg: {name} has the eigenvalue {lowest:.4g}, expected a symmetric "
-            f"matrix with eigenvalues {'>' if least else '>='} 0"
+            f"elastic leg: {name} has the eigenvalue {lowest:.4g}, expected symmetric "
+            f"matrices with eigenvalues {'>' if least else '>='} 0"
         )
 
 
@@ -138,7 +140,9 @@ class ElasticLegs(LeafSystem):
             vector(f"deflection_{name}", 3, port, {self._state.ticket()})
 
     def _calc_law(self, context, value) -> None:
-        value.set_value(elastic_forces(self._state.Eval(context), *self._laws, self._nv))
+        value.set_value(
+            elastic_forces(self._state.Eval(context), *self._laws, self._nv)
+        )
 
     def _calc_force(self, context, output) -> None:
         output.SetFromVector(self._law.Eval(context)[0])

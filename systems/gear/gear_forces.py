@@ -34,8 +34,7 @@ class GearForces(LeafSystem):
     | in `elastic_legs` (where there are such) | nv | N, N m | of ElasticLegs |
     | in `wheel_jacobian` (for all_generalized_force) | 6 k nv | | of WheelKinematics |
     | out `spatial_forces` | abstract | | list of ExternallyAppliedSpatialForce |
-    | out `generalized_force` | nv | N, N m | of struts, brakes, pitch dampers and elastic
-      legs |
+    | out `generalized_force` | nv | N, N m | of struts, brakes, pitch dampers, legs |
     | out `all_generalized_force` | nv | N, N m | the same and the tyres: all in one |
 
     Plant and attachment get either the first two outputs or the last one, which takes

@@ -17,6 +17,7 @@ from systems.attachment.attachment import Attachment, RigidAttachment
 from systems.attachment.bushing_attachment import BushingAttachment
 from systems.gear.bogie_pitch import BogiePitch, BogiePitchParameters
 from systems.gear.brake import Brake, BrakeParameters
+from systems.gear.elastic_legs import ElasticLeg, ElasticLegs
 from systems.gear.energy_budget import EnergyBudget
 from systems.gear.gear_forces import GearForces
 from systems.gear.lever_strut import LeverStrut
@@ -38,6 +39,16 @@ ABSORBER = ShockAbsorberParameters(
 )
 # A lever strut over any revolute joint: only its ports are looked at.
 LEVER = LeverStrut.over(SPINS["left"], [0.0, 0.0, 1.0], [0.4, 0.0, 0.0])
+# Any revolute joint as the hinge of a leg.
+LEG = ElasticLeg(
+    hinges=[SPINS["left"]],
+    strut=STRUTS["left"],
+    start=0.0,
+    end=0.4,
+    stiffness=np.full((2, 1, 1), 1e6),
+    damping=np.zeros((2, 1, 1)),
+    free_play=np.zeros(1),
+)
 MIXED = {"left": LEVER, "right": STRUTS["right"]}
 SIZES = {
     "nq + nv": PLANT.num_multibody_states(),
@@ -56,7 +67,10 @@ SYSTEMS = {
     BogiePitch: lambda: BogiePitch(BogiePitchParameters()),
     SideLoad: lambda: SideLoad(list(WHEELS)),
     WheelKinematics: lambda: WheelKinematics(PLANT, WHEELS, MIXED, SPINS, SPINS),
-    GearForces: lambda: GearForces(PLANT, WHEELS, MIXED, SPINS, SPINS),
+    GearForces: lambda: GearForces(
+        PLANT, WHEELS, MIXED, SPINS, SPINS, elastic_legs=True
+    ),
+    ElasticLegs: lambda: ElasticLegs(PLANT, {"left": LEG}, {"left": [0]}),
     FlexibleAirframe: lambda: FlexibleAirframe(
         BODY, [LEFT_GEAR, RIGHT_GEAR], [LEFT_GEAR, RIGHT_GEAR]
     ),

@@ -136,8 +136,8 @@ def positions(reference: Reference) -> dict[int, Float64]:
 
 def gear_mass_centre(gear: LandingGear) -> tuple[float, Float64]:
     """Mass (kg) and centre (3,) (m, B) of an extended gear."""
-    parts = [(part.mass, part.cg) for part in gear.moving_parts.values()]
-    parts.append((gear.fitting.mass, gear.fitting.cg))
+    every = {**gear.moving_parts, **gear.sprung_parts}
+    parts = [(part.mass, part.cg) for part in every.values()]
     wheels = len(gear.wheel_offsets) * gear.wheel.mass
     parts += [(wheels, axle) for axle in gear.axles]
     moment = np.sum([m * np.array(p) for m, p in parts], axis=0)
