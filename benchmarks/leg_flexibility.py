@@ -20,12 +20,12 @@ from tempfile import TemporaryDirectory
 
 import yaml
 
-from drake_landing.aircraft.gears import landing_gears
 from drake_landing.airframe.body import load_airframe
 from drake_landing.cache import Cache
 from drake_landing.case.reading import parse_case
 from drake_landing.landing.trial import Trial, try_scenario
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.reference.d150.gears import landing_gears
 from systems.airframe.modal_body import ModalBody
 
 FREQUENCIES = (None, 20.0, 16.0, 12.0, 10.0)  # Hz
