@@ -62,7 +62,7 @@ def elastic_leg(
             inertia = _swinging_inertia(plant, bodies, kind, context)
             extended.setdefault(kind, inertia)
             arm = 1.0 if kind == "torsion" else _arm(plant, gear, bodies, kind, context)
-            law = leg.beam if getattr(leg, kind) is None else getattr(leg, kind)
+            law: Elastic | LegBeam = getattr(leg, kind) or leg.beam
             if isinstance(law, LegBeam):
                 lateral = kind == "lateral"
                 k = arm * arm / deflection_per_force(law, stroke, lateral)

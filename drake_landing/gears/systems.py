@@ -160,7 +160,8 @@ def _add_elastic_legs(
         return None
     laws = {gear.name: elastic_leg(plant, gear, bodies[gear.name]) for gear in elastic}
     columns = {gear.name: hinge_columns(bodies[gear.name]) for gear in elastic}
-    legs = builder.AddNamedSystem("elastic_legs", ElasticLegs(plant, laws, columns))
+    legs = ElasticLegs(plant, laws, columns)
+    builder.AddNamedSystem("elastic_legs", legs)
     _connect(builder, plant, "state", legs, "plant_state")
     return legs
 
