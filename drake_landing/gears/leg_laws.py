@@ -15,6 +15,7 @@ description of the gear.
 """
 
 import math
+from typing import cast
 
 import numpy as np
 import numpy.typing as npt
@@ -62,7 +63,7 @@ def elastic_leg(
             inertia = _swinging_inertia(plant, bodies, kind, context)
             extended.setdefault(kind, inertia)
             arm = 1.0 if kind == "torsion" else _arm(plant, gear, bodies, kind, context)
-            law: Elastic | LegBeam = getattr(leg, kind) or leg.beam
+            law = cast(Elastic | LegBeam, getattr(leg, kind) or leg.beam)
             if isinstance(law, LegBeam):
                 lateral = kind == "lateral"
                 k = arm * arm / deflection_per_force(law, stroke, lateral)
