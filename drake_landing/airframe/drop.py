@@ -21,7 +21,6 @@ from drake_landing.gears.parameters import (
 )
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_law import StrutLaw
-from systems.tire.slip import secant
 from systems.tire.tire_law import TireLaw
 
 Float64 = npt.NDArray[np.float64]
@@ -125,11 +124,14 @@ class _DropLaw:
             damping = min(u / self._tyre.damping_ramp, 1.0) * self._damping
             elastic = self._tyre_law.elastic_force(u)
             normal = self._wheels * max(elastic + damping * w, 0.0)
-        radius = max(self._tyre.radius - u, 0.5 * self._tyre.radius)
+        radius = max(
+            self._tyre_law.rolling_radius(max(u, 0.0)), 0.5 * self._tyre.radius
+        )
         drag = 0.0
         if normal > 0.0 and self._speed > _LOW_SPEED:
             slip = (self._speed - radius * omega) / self._speed
-            drag = self._friction * normal * secant(self._tyre.slip, slip, 0.0) * slip
+            ratio, _ = self._tyre_law.ratios(u, -slip, 0.0)
+            drag = self._friction * normal * ratio
         return strut, normal, drag, radius
 
     @property

@@ -18,8 +18,9 @@ from drake_landing.airframe.drop import DropPulse, drop_pulse
 from drake_landing.case.schema import Scenario
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.parameters import tire_parameters
+from drake_landing.landing.lift import STANDARD_GRAVITY
 from systems.runway.runway import Runway
-from systems.tire.slip import secant
+from systems.tire.tire_law import TireLaw
 
 Float64 = npt.NDArray[np.float64]
 
@@ -87,7 +88,8 @@ def touchdown_pulses(
             )
             node = gears[i].attachment_node
             arm = np.mean(gears[i].axles, axis=0) - p_AN[node]
-            side = friction * _side_ratio(gears[i], scenario) * pulse.vertical
+            side = friction * _side_ratio(gears[i], scenario, shares[i])
+            side = side * pulse.vertical
             side = side + _swing(gears[i], p_AG) * pulse.drag
             load = _at_node(pulse, arm, side)
             loads.append((load.reshape(-1, 2, 3) @ R_AB).reshape(-1, 6))
@@ -144,7 +146,7 @@ def _shares(gears: Sequence[LandingGear], mass: float, p_AG: Float64) -> Float64
     return np.maximum(shares, _LEAST_SHARE * mass)
 
 
-def _side_ratio(gear: LandingGear, scenario: Scenario) -> float:
+def _side_ratio(gear: LandingGear, scenario: Scenario, share: float) -> float:
     """Side force over vertical force of wheels that drift, to starboard > 0."""
     if scenario.forward_speed <= 0.0:
         return 0.0
@@ -154,7 +156,9 @@ def _side_ratio(gear: LandingGear, scenario: Scenario) -> float:
     if drift == 0.0:
         return 0.0
     tangent = float(np.tan(drift))
-    return secant(tire_parameters(gear.tyre).slip, 0.0, tangent) * tangent
+    law = TireLaw(tire_parameters(gear.tyre), Runway())
+    load = STANDARD_GRAVITY * share / len(gear.wheel_names)
+    return float(law.ratios(law.deflection_under(load), 0.0, -tangent)[1])
 
 
 def _swing(gear: LandingGear, p_AG: Float64) -> float:

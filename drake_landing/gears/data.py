@@ -71,7 +71,12 @@ class LandingGear(Data):
     )
     fitting: RigidPart = Field(description="sprung part: main fitting, stays, doors")
     wheel: Wheel
-    tyre: Tyre
+    tyre: Tyre = Field(description="of every wheel that `tyres` does not name")
+    tyres: dict[str, Tyre] = Field(
+        default={},
+        description="name of a wheel -> what its tyre has otherwise than `tyre`, e.g. "
+        "main_left_right: {inflation: 0}",
+    )
     brake: Brake | None = Field(default=None, description="of every wheel; or none")
     shock_absorber: ShockAbsorber
     cylinder: RigidPart | None = Field(
@@ -95,6 +100,39 @@ class LandingGear(Data):
             sliding = not isinstance(self, LeveredGear)
             require_over_stroke(self.leg, self.shock_absorber.stroke, sliding)
         return self
+
+    @model_validator(mode="before")
+    @classmethod
+    def _complete_tyres(cls, data: Any) -> Any:
+        """Tyres of single wheels have the rest from the common one."""
+        common = data.get("tyre") if isinstance(data, dict) else None
+        single = data.get("tyres") if isinstance(data, dict) else None
+        if isinstance(common, Tyre):
+            common = common.model_dump(exclude_unset=True)
+        if not isinstance(common, dict) or not isinstance(single, dict):
+            return data
+        filled = {
+            name: common | changes if isinstance(changes, dict) else changes
+            for name, changes in single.items()
+        }
+        return data | {"tyres": filled}
+
+    @model_validator(mode="after")
+    def _known_wheels(self) -> Self:
+        for name in self.tyres:
+            if name not in self.wheel_names:
+                raise ValueError(
+                    f"tyres: found {name!r}, expected one of the wheels "
+                    f"{', '.join(self.wheel_names)}"
+                )
+        return self
+
+    def __hash__(self) -> int:
+        return hash((self.kind, self.name, self.attachment_node, self.wheel_offsets))
+
+    def tyre_of(self, wheel: str) -> Tyre:
+        """The tyre of a wheel, by its name."""
+        return self.tyres.get(wheel, self.tyre)
 
     @model_validator(mode="after")
     def _wheels_apart(self) -> Self:

@@ -1,14 +1,24 @@
 """Gear data as the parameters of the systems."""
 
 import math
+from dataclasses import replace
+from functools import partial
+from typing import Any, overload
 
 from drake_landing.gears.parts import Brake, PitchDamper, ShockAbsorber, Tyre
 from systems.gear.bogie_pitch import BogiePitchParameters
 from systems.gear.brake import AntiSkid, BrakeParameters
+from systems.runway.runway import Runway
 from systems.shock_absorber.gas_spring import GasSpring, SecondChamber
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.tire.aircraft_tire import (
+    SMALL_SLIP_TRAIL,
+    TireSize,
+    inflation_factor,
+)
+from systems.tire.magic_formula import MagicFormula
 from systems.tire.slip import SineSlip, TabulatedSlip
-from systems.tire.tire_law import TireParameters
+from systems.tire.tire_law import TireLaw, TireParameters
 from systems.tools.table import Table
 
 
@@ -58,16 +68,83 @@ def tire_parameters(data: Tyre) -> TireParameters:
     )
     stiffness = data.stiffness or _table(data.load_table)
     assert stiffness is not None  # the data's own validation
-    return TireParameters(
+    factor = inflation_factor(data.inflation)
+    if isinstance(stiffness, Table):
+        stiffness = Table(stiffness.x, [factor * force for force in stiffness.y])
+    else:
+        stiffness = factor * stiffness
+    plain = TireParameters(
         radius=data.radius,
         stiffness=stiffness,
-        nominal_force=data.nominal_force,
+        nominal_force=factor * data.nominal_force,
         damping=_table(data.damping_table) or data.damping,
         bottoming_deflection=data.bottoming_deflection,
         bottoming_stiffness=data.bottoming_stiffness,
         slip=slip,
         lateral_friction_ratio=data.lateral_friction_ratio,
         relaxation_length=data.relaxation_length,
+        rolling_radius=_rolling_radius(data),
+        hysteresis=data.hysteresis,
+        rolling_resistance=data.rolling_resistance,
+        magic_formula=data.magic_formula and MagicFormula.from_file(data.magic_formula),
+    )
+    size = _size(data)
+    along = across = None
+    if data.carcass == "elastic":
+        along, across = data.fore_aft_stiffness, data.lateral_stiffness
+        if size is not None:
+            along = along or size.over_deflection(size.fore_aft_stiffness)
+            across = across or size.over_deflection(size.lateral_stiffness)
+    return replace(
+        plain,
+        cornering=_cornering(data, size, TireLaw(plain, Runway())),
+        trail=_trail(data, size),
+        fore_aft_stiffness=along,
+        lateral_stiffness=across,
+    )
+
+
+def _size(data: Tyre) -> TireSize | None:
+    if data.width is None or data.pressure is None:
+        return None
+    return TireSize(
+        diameter=2.0 * data.radius,
+        width=data.width,
+        rated_pressure=data.pressure,
+        inflation=data.inflation,
+    )
+
+
+def _rolling_radius(data: Tyre) -> float | Table:
+    if isinstance(data.rolling_radius, str):
+        return {"effective": 1.0 / 3.0, "loaded": 1.0}[data.rolling_radius]
+    return _table(data.rolling_radius)
+
+
+def _cornering(data: Tyre, size: TireSize | None, law: TireLaw) -> Table | None:
+    """Side force per angle (N/rad) over deflection (m)."""
+    over_load: Any
+    if data.cornering_slope is not None:
+        over_load = partial(float.__mul__, data.cornering_slope)
+    elif data.cornering_table is not None:
+        over_load = _table(data.cornering_table).value
+    elif size is not None:
+        over_load = size.cornering_power
+    else:
+        return None
+    x = [data.radius * i / 160 for i in range(81)]
+    return Table(x, [over_load(law.elastic_force(d)) for d in x])
+
+
+def _trail(data: Tyre, size: TireSize | None) -> Table | None:
+    """Pneumatic trail at small angles (m) over deflection (m)."""
+    if data.pneumatic_trail is not None:
+        trail = data.pneumatic_trail
+        return Table((0.0, 1.0), (trail, trail)) if trail else None
+    if size is None:
+        return None
+    return size.over_deflection(
+        lambda d: SMALL_SLIP_TRAIL * size.half_contact_length(d)
     )
 
 
@@ -100,5 +177,9 @@ def bogie_pitch_parameters(data: PitchDamper) -> BogiePitchParameters:
     )
 
 
+@overload
+def _table(pairs: list[tuple[float, float]]) -> Table: ...
+@overload
+def _table(pairs: None) -> None: ...
 def _table(pairs: list[tuple[float, float]] | None) -> Table | None:
     return None if pairs is None else Table(*map(tuple, zip(*pairs)))

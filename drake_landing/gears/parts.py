@@ -5,9 +5,20 @@ extended, aircraft undeformed. SI units except angles in degrees.
 """
 
 from itertools import pairwise
-from typing import Annotated, Self
+from pathlib import Path
+from typing import Annotated, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
+
+from systems.tire.magic_formula import MagicFormula
 
 Vector3 = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -26,6 +37,18 @@ def _ascending(table: list[tuple[float, float]]) -> list[tuple[float, float]]:
 Table = Annotated[
     list[tuple[float, float]], Field(min_length=2), AfterValidator(_ascending)
 ]
+
+
+def _existing(path: Path, info: ValidationInfo) -> Path:
+    """A file relative to the folder of the case."""
+    folder = (info.context or {}).get("folder")
+    path = Path(folder, path) if folder else path
+    if not path.is_file():
+        raise ValueError(f"found {path}, expected a file that is there")
+    return path
+
+
+InputFile = Annotated[Path, AfterValidator(_existing)]
 
 
 class Data(BaseModel):
@@ -82,7 +105,10 @@ class Wheel(Data):
 
 
 class Tyre(Data):
-    """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'."""
+    """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'.
+
+    With width and pressure, what is not given follows from them (NASA TR R-64).
+    """
 
     radius: Positive = Field(le=2, description="unloaded radius, m, > 0 and <= 2")
     stiffness: Positive | None = Field(
@@ -128,6 +154,72 @@ class Tyre(Data):
     relaxation_length: NotNegative = Field(
         default=0.0, description="m; 0: the force follows the slip without delay"
     )
+    rolling_radius: Literal["effective", "loaded"] | Table = Field(
+        default="effective",
+        description="effective: a third of the deflection below the unloaded radius; "
+        "loaded: the axle's height; or deflection (m, ascending) against rolling "
+        "radius (m)",
+    )
+    width: Positive | None = Field(
+        default=None, description="outer width, m; beside pressure"
+    )
+    pressure: float | None = Field(
+        default=None,
+        gt=5e4,
+        le=5e6,
+        description="rated inflation pressure, Pa, at which stiffness or load_table "
+        "hold",
+    )
+    inflation: float = Field(
+        default=1.0,
+        ge=0,
+        le=1.5,
+        description="pressure over the rated one: 0 is a flat tyre; beside pressure",
+    )
+    cornering_slope: Positive | None = Field(
+        default=None,
+        le=50,
+        description="side force over load and slip angle, 1/rad; default: from width "
+        "and pressure, else that of the friction law",
+    )
+    cornering_table: Table | None = Field(
+        default=None,
+        description="load (N, ascending) against side force over slip angle (N/rad); "
+        "instead of cornering_slope",
+    )
+    pneumatic_trail: NotNegative | None = Field(
+        default=None,
+        le=1,
+        description="of the side force at small angles, m; default: from width and "
+        "pressure, else 0",
+    )
+    carcass: Literal["rigid", "elastic"] = Field(
+        default="rigid",
+        description="elastic: tyre forces follow the slip over relaxation lengths, "
+        "from fore_aft_stiffness and lateral_stiffness",
+    )
+    fore_aft_stiffness: Positive | None = Field(
+        default=None,
+        description="of the elastic carcass, N/m; default: from width and pressure",
+    )
+    lateral_stiffness: Positive | None = Field(
+        default=None,
+        description="of the elastic carcass, N/m; default: from width and pressure",
+    )
+    hysteresis: float = Field(
+        default=0.0,
+        ge=0,
+        le=0.9,
+        description="work lost over the work of loading, in a slow cycle of load",
+    )
+    rolling_resistance: float = Field(
+        default=0.0, ge=0, le=0.5, description="drag of free rolling over load"
+    )
+    magic_formula: InputFile | None = Field(
+        default=None,
+        description="property file (.tir) of the Magic Formula, relative to the case "
+        "file, in place of friction, cornering and trail",
+    )
 
     @model_validator(mode="after")
     def _one_law(self) -> Self:
@@ -135,6 +227,62 @@ class Tyre(Data):
             raise ValueError("give either stiffness or load_table")
         if self.damping > 0.0 and self.damping_table is not None:
             raise ValueError("give either damping or damping_table")
+        return self
+
+    @field_validator("magic_formula")
+    @classmethod
+    def _formula(cls, path: Path | None) -> Path | None:
+        if path is not None:
+            MagicFormula.from_file(path)
+        return path
+
+    @model_validator(mode="after")
+    def _sized(self) -> Self:
+        sized = self.width is not None and self.pressure is not None
+        if (self.width is None) != (self.pressure is None):
+            lacking = "pressure" if self.pressure is None else "width"
+            raise ValueError(f"{lacking}: found none, expected width and pressure")
+        if self.width is not None and self.width > 2.0 * self.radius:
+            raise ValueError(
+                f"width: found {self.width:g} m, expected less than the diameter, "
+                f"{2.0 * self.radius:g} m"
+            )
+        if self.inflation != 1.0 and not sized:
+            raise ValueError(
+                f"inflation: found {self.inflation:g}, which needs width and pressure"
+            )
+        if self.cornering_slope is not None and self.cornering_table is not None:
+            raise ValueError("give either cornering_slope or cornering_table")
+        stiff = self.fore_aft_stiffness is not None, self.lateral_stiffness is not None
+        if self.carcass == "elastic" and not (all(stiff) or sized):
+            raise ValueError(
+                "carcass: an elastic one needs fore_aft_stiffness and "
+                "lateral_stiffness, or width and pressure"
+            )
+        if self.carcass == "rigid" and any(stiff):
+            raise ValueError(
+                "carcass: found rigid, expected elastic beside fore_aft_stiffness or "
+                "lateral_stiffness"
+            )
+        if self.carcass == "elastic" and self.relaxation_length:
+            raise ValueError(
+                f"relaxation_length: found {self.relaxation_length:g} m, expected 0 "
+                "with an elastic carcass, from which it follows"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _tables(self) -> Self:
+        cornering = self.cornering_table
+        if cornering and (cornering[0][0] < 0 or min(y for _, y in cornering) <= 0):
+            raise ValueError("cornering_table: loads >= 0 and values > 0 are expected")
+        if isinstance(self.rolling_radius, list):
+            radii = [y for _, y in self.rolling_radius]
+            if not 0.5 * self.radius < min(radii) <= max(radii) <= 1.1 * self.radius:
+                raise ValueError(
+                    f"rolling_radius: found {min(radii):g} to {max(radii):g} m, "
+                    f"expected about the radius, {self.radius:g} m"
+                )
         return self
 
     @model_validator(mode="after")

@@ -175,8 +175,10 @@ def _add_laws(
     tire, absorber, pitch = (
         cast(Any, kind) for kind in (Tire, ShockAbsorber, BogiePitch)
     )
-    law = tire_parameters(gear.tyre)
+    common = tire_parameters(gear.tyre)
     for wheel in gear.wheel_names:
+        single = gear.tyres.get(wheel)
+        law = common if single is None else tire_parameters(single)
         systems.tires[wheel] = builder.AddNamedSystem(
             f"tire_{wheel}", tire(law, runway)
         )

@@ -244,7 +244,7 @@ def _roll(
             tire = landing.tires[name]
             contact = tire.GetOutputPort("contact")
             deflection = contact.Eval(tire.GetMyContextFromRoot(context))[0]
-            radius = tire.parameters.radius - max(deflection, 0.0)
+            radius = tire.rolling_radius(max(float(deflection), 0.0))
             # Along the wheel is axle × up; rolling forward turns it negatively.
             a_x, a_y = wheel[3:5]
             along = (a_y * wheel[6] - a_x * wheel[7]) / np.hypot(a_x, a_y)

@@ -78,6 +78,11 @@ class TabulatedSlip:
         """dμ/dρ at zero slip."""
         return self.table.slope(0.0)
 
+    @property
+    def peak(self) -> float:
+        """Largest friction coefficient."""
+        return max(self.table.y)
+
     def mu(self, slip: Scalar) -> Scalar:
         """Friction coefficient at slip >= 0."""
         return self.table.value(slip)

@@ -49,12 +49,14 @@ def Tire_(T):
         angle, positive for sliding to starboard. In the air all but the deflection is
         zero.
 
-        States: none; with relaxation_length > 0 the lagged slips along and across.
+        States: none; with a relaxation length, given or from the carcass, the lagged
+        slips along and across.
         Numeric parameters: `TireTunables`, factors on the law, 1 each; `set_factors`.
 
         Energy: wrench power on the wheel + d(energy)/dt + dissipated_power = 0. The
-        dissipated power is never negative without a relaxation length; with it, it
-        contains what the carcass stores for a moment across and along.
+        dissipated power is never negative without a relaxation length and without a
+        pneumatic trail; it contains what the carcass stores for a moment across and
+        along, and the work of the aligning moment on a wheel that yaws.
         """
 
         def _construct(
@@ -67,7 +69,7 @@ def Tire_(T):
             self._parameters = parameters
             self._runway = Runway() if runway is None else runway
             self._law = TireLaw(parameters, self._runway)
-            self._lagged = parameters.relaxation_length > 0.0
+            self._lagged = parameters.lagged
             self._tunables = NumericParameterIndex(
                 self.DeclareNumericParameter(BasicVector_[T]([1.0, 1.0, 1.0]))
             )
@@ -99,6 +101,10 @@ def Tire_(T):
 
         def _construct_copy(self, other, converter=None):
             Impl._construct(self, other._parameters, other._runway, converter=converter)
+
+        def rolling_radius(self, deflection):
+            """Speed over spin of a wheel that rolls freely, m, at a deflection, m."""
+            return self._law.rolling_radius(deflection)
 
         @property
         def parameters(self) -> TireParameters:

@@ -11,6 +11,14 @@ Radial force F_r = elastic(δ) + damping(δ) δ', δ = r - r_r, not less than ze
 along n is F_r/cos(camber): then ground power and stored energy balance for any tilt,
 because δ' = -v_P · n / cos(camber).
 
+The wheel rolls freely where v_C · t = R ω · a: R, the rolling radius, lies between
+loaded and unloaded radius. Slip is v_C · t - R ω · a, and the force along the wheel has
+the arm R about the axle: the ground does the work F × slip and no other, whatever R
+is. R differs from r_r by the load, which moves fore and aft within the footprint.
+
+The side force acts behind the middle of the footprint by the pneumatic trail: a moment
+about n that turns the wheel into its direction of travel.
+
 All forces turn with the wheel: nothing depends on heading, nor on position on a flat
 runway.
 """
@@ -18,9 +26,11 @@ runway.
 from dataclasses import dataclass, field
 
 from systems.runway.runway import Runway
+from systems.tire.aircraft_tire import trail_share
+from systems.tire.magic_formula import MagicFormula
 from systems.tire.slip import SineSlip, SlipCurve, reference_speed, secant
 from systems.tools.checks import require
-from systems.tools.scalar import Scalar
+from systems.tools.scalar import Scalar, sqrt
 from systems.tools.stops import contact_elastic, contact_energy, never_pulling
 from systems.tools.table import Table
 
@@ -31,6 +41,11 @@ _LEAST_RELAXATION = 0.1
 # stiffness acts as damping (s), fading out at the given speed (m/s).
 _STANDSTILL_DAMPING = 0.01
 _STANDSTILL_SPEED = 2.5
+# Least relaxation length over the radius, where it follows from the carcass: that of a
+# tyre that hardly touches would be nothing.
+_SHORTEST = 0.5
+# Rate of deflection within which hysteresis changes sides, m/s.
+_HYSTERESIS_RATE = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +64,18 @@ class TireParameters:
         lateral_friction_ratio: ν, friction across over friction along the wheel.
         lateral_slip_scale: c, slope of the side force over that of the drag.
         relaxation_length: m; 0 is the algebraic law, without states.
+        rolling_radius: share of the deflection by which the rolling radius falls short
+            of the unloaded one: a third for a tyre that rolls, 1 is the loaded radius;
+            or a table of the rolling radius (m) over deflection (m).
+        cornering: table of the side force per angle at small angles (N/rad) over
+            deflection (m); None: the slope of `slip`.
+        trail: table of the pneumatic trail at small angles (m) over deflection (m).
+        fore_aft_stiffness, lateral_stiffness: of the carcass, N/m or a table of it over
+            deflection (m); both or none. The relaxation lengths follow: slope of the
+            force over slip divided by the stiffness.
+        hysteresis: work lost in a cycle of slow loading over the work of loading;
+            loading follows `stiffness`.
+        rolling_resistance: moment about the axle over F_z and rolling radius.
         low_speed: m/s, speed of travel below which slip is regularised.
 
     Raises:
@@ -66,6 +93,14 @@ class TireParameters:
     lateral_friction_ratio: float = 1.0
     lateral_slip_scale: float = 1.0
     relaxation_length: float = 0.0
+    rolling_radius: float | Table = 1.0 / 3.0
+    cornering: Table | None = None
+    trail: Table | None = None
+    fore_aft_stiffness: float | Table | None = None
+    lateral_stiffness: float | Table | None = None
+    hysteresis: float = 0.0
+    rolling_resistance: float = 0.0
+    magic_formula: MagicFormula | None = None
     low_speed: float = 0.5
 
     def __post_init__(self) -> None:
@@ -107,6 +142,61 @@ class TireParameters:
         ):
             require("tire", name, getattr(self, name), unit, above=0.0)
         require("tire", "relaxation_length", self.relaxation_length, "m", at_least=0.0)
+        for name, bound in (("hysteresis", 0.9), ("rolling_resistance", 0.5)):
+            value = getattr(self, name)
+            require("tire", name, value, "", at_least=0.0, at_most=bound)
+        self._check_tables()
+
+    def _check_tables(self) -> None:
+        rolling = self.rolling_radius
+        if isinstance(rolling, Table):
+            if not 0.0 < min(rolling.y) <= max(rolling.y) <= 1.1 * self.radius:
+                raise ValueError(
+                    f"tire: rolling_radius goes from {min(rolling.y)} to "
+                    f"{max(rolling.y)} m, expected > 0 m and about the radius, "
+                    f"{self.radius} m, at most"
+                )
+        else:
+            require("tire", "rolling_radius", rolling, "", at_least=0.0, at_most=1.0)
+        for name in ("cornering", "trail"):
+            table = getattr(self, name)
+            if table is not None and min(table.y) < 0.0:
+                raise ValueError(f"tire: {name} has a negative value, expected >= 0")
+        carcass = (self.fore_aft_stiffness, self.lateral_stiffness)
+        if (carcass[0] is None) != (carcass[1] is None):
+            raise ValueError(
+                "tire: fore_aft_stiffness and lateral_stiffness: found one, expected "
+                "both or none"
+            )
+        if carcass[0] is not None and self.relaxation_length > 0.0:
+            raise ValueError(
+                "tire: relaxation_length beside stiffnesses of the carcass, expected "
+                "one or the other: the length follows from them"
+            )
+
+    @property
+    def lagged(self) -> bool:
+        """Whether the slips are states."""
+        return self.relaxation_length > 0.0 or self.lateral_stiffness is not None
+
+
+def relaxation_lengths(law: "TireLaw") -> tuple[Table, Table]:
+    """Along and across the wheel over deflection, m; 1 where there are no states."""
+    p = law.parameters
+    if p.fore_aft_stiffness is None or p.lateral_stiffness is None:
+        length = p.relaxation_length or 1.0
+        fixed = Table((0.0, 1.0), (length, length))
+        return fixed, fixed
+    x = [p.radius * i / 160 for i in range(81)]
+    least = _SHORTEST * p.radius
+    tables = []
+    for i, stiffness in enumerate((p.fore_aft_stiffness, p.lateral_stiffness)):
+        y = []
+        for d in x:
+            k = stiffness.value(d) if isinstance(stiffness, Table) else stiffness
+            y.append(max(law.slopes(d)[i] / k, least) if k > 0.0 else least)
+        tables.append(Table(x, y))
+    return tables[0], tables[1]
 
 
 def _require_force_table(table: Table) -> None:
@@ -173,12 +263,84 @@ class TireLaw:
         self._rim_stiffness = (
             0.0 if p.bottoming_deflection is None else p.bottoming_stiffness
         )
+        self._kept = 1.0 - 0.5 * p.hysteresis
+        self._lag_along, self._lag_across = relaxation_lengths(self)
+        self._scale = self._lateral_scale()
+        # The trail falls with the slip as it does with the angle.
+        per_slip = p.slip.initial_slope / p.slip.peak if p.slip.peak else 1.0
+        slips = [4.0 / per_slip * i / 80 for i in range(81)]
+        self._trail_share = Table(slips, [trail_share(per_slip * s) for s in slips])
+
+    @property
+    def parameters(self) -> TireParameters:
+        return self._p
+
+    def rolling_radius(self, deflection: Scalar) -> Scalar:
+        """Speed over spin of a wheel that rolls freely, m."""
+        rolling = self._p.rolling_radius
+        if isinstance(rolling, Table):
+            return rolling.value(deflection)
+        return self._p.radius - rolling * deflection
+
+    def ratios(
+        self, deflection: Scalar, along: Scalar, across: Scalar
+    ) -> tuple[Scalar, Scalar]:
+        """F_t and F_l over F_z of a wheel that rolls steadily toward -t.
+
+        Args:
+            deflection: m, > 0.
+            along, across: sliding velocity along t and l over the speed.
+        """
+        speed = 10.0 * self._p.low_speed
+        load = self.elastic_force(deflection)
+        if not load > 0.0:
+            return 0.0, 0.0
+        slide = (along * speed, across * speed)
+        forces = self._friction(*slide, -speed, deflection, load, 1.0, 0.0, None)
+        return forces[1] / load, forces[2] / load
+
+    def deflection_under(self, load: float) -> float:
+        """Deflection at which the tyre carries a load (N) at rest, m; at most half the
+        radius.
+        """
+        low, high = 0.0, 0.5 * self._p.radius
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            low, high = (
+                (middle, high) if self.elastic_force(middle) < load else (low, middle)
+            )
+        return high
+
+    def slopes(self, deflection: float) -> tuple[float, float]:
+        """Force per slip at small slip, along and across the wheel at rest, N."""
+        p, load = self._p, self.elastic_force(deflection)
+        if p.magic_formula is not None:
+            return p.magic_formula.slopes(load)
+        along = p.slip.initial_slope * load
+        if p.cornering is not None:
+            return along, p.cornering.value(deflection)
+        return along, along * p.lateral_friction_ratio * p.lateral_slip_scale
+
+    def _lateral_scale(self) -> Table | None:
+        """c over deflection, where the cornering power is given."""
+        p = self._p
+        if p.cornering is None or not p.slip.initial_slope > 0.0:
+            return None
+        slope = p.slip.initial_slope * p.lateral_friction_ratio
+        least = 1e-3 * self.elastic_force(0.1 * p.radius)
+        x = [p.radius * i / 200 for i in range(1, 101)]
+        points = [
+            (d, p.cornering.value(d) / (slope * load))
+            for d in x
+            if (load := self.elastic_force(d)) > least
+        ]
+        return Table(*zip(*points))
 
     def elastic_force(self, deflection: Scalar, factor: Scalar = 1.0) -> Scalar:
         """Radial force at rest, N."""
         if deflection <= 0.0:
             return 0.0
-        force = factor * self._elastic.value(deflection)
+        force = factor * self._kept * self._elastic.value(deflection)
         if deflection > self._rim:
             force = force + contact_elastic(deflection - self._rim, self._rim_stiffness)
         return force
@@ -187,9 +349,8 @@ class TireLaw:
         """Energy stored in the radial deflection, J."""
         if deflection <= 0.0:
             return 0.0
-        return factor * self._elastic.integral(deflection) + contact_energy(
-            deflection - self._rim, self._rim_stiffness
-        )
+        stored = factor * self._kept * self._elastic.integral(deflection)
+        return stored + contact_energy(deflection - self._rim, self._rim_stiffness)
 
     def deflection(self, wheel: list[Scalar]) -> Scalar:
         """r - r_r, m; negative is the clearance."""
@@ -238,27 +399,36 @@ class TireLaw:
             vz + wx * qy - wy * qx,
         )
         rate = -(ux * nx + uy * ny + uz * nz) / c
-        slide_t = ux * tx + uy * ty + uz * tz
+        rolling = self.rolling_radius(deflection)
+        spin = wx * ax + wy * ay + wz * az
+        # At P the material slides by v_t - r_r ω · a along the wheel.
+        slide_t = ux * tx + uy * ty + uz * tz + (r - rolling) * spin
         slide_l = ux * lx + uy * ly + uz * lz
         travel = vx * tx + vy * ty + vz * tz
 
         elastic = self.elastic_force(deflection, factors[0])
-        damping = never_pulling(
-            elastic, factors[1] * self._damping.value(deflection) * rate
-        )
+        loss = factors[1] * self._damping.value(deflection) * rate
+        if self._p.hysteresis > 0.0:
+            loss = loss + self._hysteresis(deflection, rate, factors[0])
+        damping = never_pulling(elastic, loss)
         fz = (elastic + damping) / c
-        slip, ft, fl, rate_t, rate_l = self._friction(
-            slide_t, slide_l, travel, fz * factors[2], slip_state
+        slip, ft, fl, turning, rate_t, rate_l = self._friction(
+            slide_t, slide_l, travel, deflection, fz, factors[2], tilt, slip_state
         )
+        # About the axle: the arm of F_t is the rolling radius; rolling resistance.
+        about = (r - rolling) * ft
+        if self._p.rolling_resistance > 0.0:
+            about = about - self._resistance(spin, rolling, fz)
+        yawing = wx * nx + wy * ny + wz * nz
         fx, fy, fz_w = (
             fz * nx + ft * tx + fl * lx,
             fz * ny + ft * ty + fl * ly,
             fz * nz + ft * tz + fl * lz,
         )
         return (
-            qy * fz_w - qz * fy,
-            qz * fx - qx * fz_w,
-            qx * fy - qy * fx,
+            qy * fz_w - qz * fy + about * ax + turning * nx,
+            qz * fx - qx * fz_w + about * ay + turning * ny,
+            qx * fy - qy * fx + about * az + turning * nz,
             fx,
             fy,
             fz_w,
@@ -269,54 +439,81 @@ class TireLaw:
             slip,
             slide_l,
             travel,
-            damping * rate - ft * slide_t - fl * slide_l,
+            damping * rate
+            - ft * slide_t
+            - fl * slide_l
+            - turning * yawing
+            - (about - (r - rolling) * ft) * spin,
             rate_t,
             rate_l,
         )
+
+    def _hysteresis(self, deflection: Scalar, rate: Scalar, factor: Scalar) -> Scalar:
+        """What loading takes beyond the stored force, and unloading gives less, N."""
+        force = 0.5 * self._p.hysteresis * factor * self._elastic.value(deflection)
+        return force * rate / sqrt(rate * rate + _HYSTERESIS_RATE * _HYSTERESIS_RATE)
+
+    def _resistance(self, spin: Scalar, rolling: Scalar, load: Scalar) -> Scalar:
+        """Moment of rolling resistance, in the sense of the spin, N m."""
+        slow = self._p.low_speed / self._p.radius
+        sense = spin / sqrt(spin * spin + slow * slow)
+        return self._p.rolling_resistance * load * rolling * sense
 
     def _friction(
         self,
         slide_t: Scalar,
         slide_l: Scalar,
         travel: Scalar,
-        normal: Scalar,
+        deflection: Scalar,
+        load: Scalar,
+        factor: Scalar,
+        tilt: Scalar,
         slip_state: list[Scalar] | None,
-    ) -> tuple[Scalar, Scalar, Scalar, Scalar, Scalar]:
-        """Slip along t, F_t, F_l, rates of the lagged slips.
+    ) -> tuple[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar]:
+        """Slip along t, F_t, F_l, moment about n, rates of the lagged slips.
 
         With a relaxation length L the slips lag: L* κ' + |v| κ = v_slide, L* falling
         from L with the secant of the friction curve, as the carcass deflects by force
         over stiffness.
         """
-        p = self._p
-        speed = reference_speed(travel, p.low_speed)
+        p, friction = self._p, factor * self._runway.friction
+        scale = p.lateral_slip_scale
+        if self._scale is not None:
+            scale = self._scale.value(deflection)
         if slip_state is None:
+            speed = reference_speed(travel, p.low_speed)
             k_t, k_l = slide_t / speed, slide_l / speed
             rate_t = rate_l = 0.0
         else:
             k_t, k_l = slip_state
-            length = p.relaxation_length
-            share = (
-                secant(p.slip, k_t, p.lateral_slip_scale * k_l) / p.slip.initial_slope
-            )
-            lag = length * (share if share > _LEAST_RELAXATION else _LEAST_RELAXATION)
+            share = 1.0
+            if p.magic_formula is None and p.slip.initial_slope > 0.0:
+                share = secant(p.slip, k_t, scale * k_l) / p.slip.initial_slope
+                share = share if share > _LEAST_RELAXATION else _LEAST_RELAXATION
+            along = self._lag_along.value(deflection)
+            across = self._lag_across.value(deflection)
             magnitude = abs(travel)
-            rate_t = (slide_t - magnitude * k_t) / lag
-            rate_l = (slide_l - magnitude * k_l) / lag
+            rate_t = (slide_t - magnitude * k_t) / (along * share)
+            rate_l = (slide_l - magnitude * k_l) / (across * share)
             if magnitude < _STANDSTILL_SPEED:
                 fade = 1.0 - magnitude / _STANDSTILL_SPEED
-                per_speed = _STANDSTILL_DAMPING / length * fade * fade
-                k_t = k_t + per_speed * slide_t
-                k_l = k_l + per_speed * slide_l
-        across = p.lateral_slip_scale * k_l
-        share = normal * self._runway.friction * secant(p.slip, k_t, across)
-        return (
-            k_t,
-            -share * k_t,
-            -share * p.lateral_friction_ratio * across,
-            rate_t,
-            rate_l,
-        )
+                damping = _STANDSTILL_DAMPING * fade * fade
+                k_t = k_t + damping / along * slide_t
+                k_l = k_l + damping / across * slide_l
+        if p.magic_formula is not None:
+            forces = p.magic_formula.along_wheel(load, k_t, k_l, travel, tilt)
+            ft, fl, turning = (friction * value for value in forces)
+            return k_t, ft, fl, turning, rate_t, rate_l
+        across = scale * k_l
+        share = load * friction * secant(p.slip, k_t, across)
+        side = -share * p.lateral_friction_ratio * across
+        turning = 0.0
+        if p.trail is not None:
+            trail = p.trail.value(deflection)
+            trail = trail * self._trail_share.value(sqrt(k_t * k_t + across * across))
+            sense = travel / sqrt(travel * travel + p.low_speed * p.low_speed)
+            turning = -sense * trail * side
+        return (k_t, -share * k_t, side, turning, rate_t, rate_l)
 
     def _airborne(
         self,
@@ -329,8 +526,9 @@ class TireLaw:
         if slip_state is not None:
             vx, vy = wheel[6], wheel[7]
             # +1: springs back at rest, too, and smooth there.
-            decay = (vx * vx + vy * vy + 1.0) ** 0.5 / self._p.relaxation_length
-            rate_t, rate_l = -decay * slip_state[0], -decay * slip_state[1]
+            speed = (vx * vx + vy * vy + 1.0) ** 0.5
+            rate_t = -speed / self._lag_along.y[0] * slip_state[0]
+            rate_l = -speed / self._lag_across.y[0] * slip_state[1]
         z = 0.0 * deflection
         return (z, z, z, z, z, z, deflection, *([z] * 7), rate_t, rate_l)
 

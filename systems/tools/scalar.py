@@ -38,3 +38,7 @@ def power(x: Scalar, n: Scalar) -> Scalar:
     if type(x) is float and type(n) is float:
         return x**n
     return drake_math.exp(n * drake_math.log(x))
+
+
+def exp(x: Scalar) -> Scalar:
+    return math.exp(x) if type(x) is float else drake_math.exp(x)

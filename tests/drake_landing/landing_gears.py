@@ -11,7 +11,8 @@ _NOSE = {
     "fitting": {"mass": 140.0, "cg": (5.07, 0.0, -2.15), "inertia": (28, 28, 4)},
     "piston": {"mass": 100.0, "cg": (5.07, 0.0, -3.35), "inertia": (16, 15, 3)},
     "wheel": {"mass": 40.0, "spin_inertia": 2.5, "transverse_inertia": 1.6},
-    "tyre": {"radius": 0.381, "stiffness": 1.05e6, "damping": 1.5e3},
+    "tyre": {"radius": 0.381, "stiffness": 1.05e6, "damping": 1.5e3}
+    | {"rolling_radius": "loaded"},
     "shock_absorber": {
         "stroke": 0.43,
         "gas_length": 0.47,
@@ -32,7 +33,8 @@ def _main(name: str, node: int, side: float) -> dict:
         "fitting": {"mass": 616.0, "cg": (17.51, y, -1.75), "inertia": (150, 150, 30)},
         "piston": {"mass": 330.0, "cg": (17.71, y, -3.15), "inertia": (75, 68, 18)},
         "wheel": {"mass": 210.0, "spin_inertia": 18.0, "transverse_inertia": 11.0},
-        "tyre": {"radius": 0.584, "stiffness": 2.0e6, "damping": 3.0e3},
+        "tyre": {"radius": 0.584, "stiffness": 2.0e6, "damping": 3.0e3}
+        | {"rolling_radius": "loaded"},
         "shock_absorber": {
             "stroke": 0.47,
             "gas_length": 0.52,

@@ -27,7 +27,7 @@ MAIN_LEG = Rig(
         rebound_damping=180e3,
         seal_friction=0.03,
     ),
-    tire=TireParameters(radius=0.584, stiffness=2e6, damping=3e3),
+    tire=TireParameters(radius=0.584, stiffness=2e6, damping=3e3, rolling_radius=1.0),
     sprung_mass=32246.0 - 750.0,
     unsprung_mass=750.0,
     sink_rate=1.83,

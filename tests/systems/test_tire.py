@@ -29,7 +29,12 @@ WAVY = Runway(profile=Waves(amplitude=0.02, wavelength=4.0), direction=(1.0, 0.3
 
 
 def tire(**changes) -> TireParameters:
-    values = {"radius": RADIUS, "stiffness": 2e6, "damping": 3e3} | changes
+    values = {
+        "radius": RADIUS,
+        "stiffness": 2e6,
+        "damping": 3e3,
+        "rolling_radius": 1.0,
+    } | changes
     return TireParameters(**values)
 
 
