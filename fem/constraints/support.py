@@ -13,7 +13,6 @@ from fem.errors import InputError
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
-    from fem.deck.case_control import Subcase
     from fem.deck.deck import Deck
 
 
@@ -35,8 +34,10 @@ class Support:
 def support(
     deck: "Deck",
     points: Points,
-    subcase: "Subcase",
     stiffness: sp.csr_matrix,
+    *,
+    spc: int,
+    mpc: int,
     generalised: Int64,
 ) -> Support:
     """Constraints of a subcase after AUTOSPC.
@@ -44,8 +45,8 @@ def support(
     Args:
         deck: the deck.
         points: numbering.
-        subcase: selects SPC and MPC.
         stiffness: (g, g) K.
+        spc, mpc: sets of constraints, 0: none.
         generalised: rows of the g-set of generalised coordinates (QSET), which have no
             stiffness before a reduction gives them one; they are held here.
 
@@ -53,7 +54,7 @@ def support(
         InputError: constraints that contradict each other; no freedom is left although
             AUTOSPC could constrain some.
     """
-    elimination = eliminate(deck, points, spc=subcase.spc, mpc=subcase.mpc)
+    elimination = eliminate(deck, points, spc=spc, mpc=mpc)
     elimination = elimination.with_fixed(np.setdiff1d(generalised, elimination.s))
     reduced = elimination.reduce(stiffness)
     if str(deck.param("AUTOSPC")).upper().startswith("N"):

@@ -1,15 +1,14 @@
 """`Structure`: a deck and one of its subcases, put together for the solutions.
 
-Everything is computed when it is first asked for, and kept. The matrices on the free
-set (f) are plain scipy.sparse matrices, so that any function of `fem` that works on
-matrices works on a structure, on parts of it, or on somebody else's matrices.
+The deck's part is a `Model`, that of the constraints a `FreeSet`; subcases that agree
+share them. Everything is computed when it is first asked for, and kept. The matrices on
+the free set (f) are plain scipy.sparse matrices, so that any function of `fem` that
+works on matrices works on a structure, on parts of it, or on somebody else's matrices.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
@@ -22,18 +21,13 @@ from fem.algebra.linear_solver import SingularMatrixError
 from fem.arrays import Float64, Int64
 from fem.constraints.autospc import Singularities
 from fem.constraints.elimination import Elimination
-from fem.constraints.sets import freedoms_of
-from fem.constraints.support import Support, support
-from fem.elements.quality import quality_notices, quality_table
-from fem.elements.registry import element_notices, read_elements
 from fem.errors import InputError
-from fem.model.assembly import Matrices, assemble
-from fem.model.damping import damping_in_transients, inactive_damping
-from fem.model.direct_input import read_direct
+from fem.geometry.points import Points
+from fem.model.assembly import Matrices
+from fem.model.free_set import ConstraintChoice, FreeSet
 from fem.model.mechanisms import Mechanism, describe, find_mechanisms
-from fem.model.pieces import describe_pieces, unconnected_pieces
-from fem.model.points import read_points
-from fem.model.weight import Weight, rigid_modes, weigh
+from fem.model.model import Model, ModelChoice
+from fem.model.weight import Weight
 
 if TYPE_CHECKING:
     from fem.algebra.linear_solver import SolverName
@@ -50,16 +44,20 @@ class Structure:
     Args:
         deck: the deck.
         subcase: its subcase; None: the first.
+        free: its free set, where it is known.
 
     Attributes:
-        deck, subcase: as given.
-        points: grids and scalar points, numbering of the g-set.
+        subcase: as given.
     """
 
-    def __init__(self, deck: Deck, subcase: Subcase | None = None) -> None:
-        self.deck = deck
+    def __init__(
+        self, deck: Deck, subcase: Subcase | None = None, *, free: FreeSet | None = None
+    ) -> None:
         self.subcase = subcase if subcase is not None else deck.case_control[0]
-        self.points = read_points(deck)
+        if free is None:
+            model = Model(deck, ModelChoice.of(self.subcase))
+            free = FreeSet(model, ConstraintChoice.of(self.subcase))
+        self._free = free
 
     @classmethod
     def from_deck(cls, deck: Deck, subcase: int | None = None) -> Structure:
@@ -76,117 +74,71 @@ class Structure:
 
     def with_subcase(self, subcase: Subcase) -> Structure:
         """The same model under another subcase; what does not change is shared."""
-        other = Structure.__new__(Structure)
-        other.deck, other.subcase, other.points = self.deck, subcase, self.points
-        same_model = all(
-            getattr(subcase, name) == getattr(self.subcase, name)
-            for name in ("nsm", "k2gg", "m2gg", "b2gg")
-        )
-        same_support = same_model and all(
-            getattr(subcase, name) == getattr(self.subcase, name)
-            for name in ("spc", "mpc")
-        )
-        for names, shared in (
-            (_OF_MODEL, same_model),
-            (_OF_SUPPORT, same_support),
-        ):
-            if shared:
-                for name in names & self.__dict__.keys():
-                    other.__dict__[name] = self.__dict__[name]
-        return other
+        return Structure(self.deck, subcase, free=self._free.under(subcase))
 
     # -- the model ------------------------------------------------------------------
 
-    @cached_property
+    @property
+    def model(self) -> Model:
+        """What subcases of the same mass and matrices share."""
+        return self._free.model
+
+    @property
+    def deck(self) -> Deck:
+        """The deck."""
+        return self.model.deck
+
+    @property
+    def points(self) -> Points:
+        """Grids and scalar points, numbering of the g-set."""
+        return self.model.points
+
+    @property
     def blocks(self) -> list[ElementBlock]:
-        """All elements.
+        """All elements, see `Model`."""
+        return self.model.blocks
 
-        Raises:
-            InputError: whatever is wrong with any of them.
-        """
-        return read_elements(self.deck, self.points, nsm=self.subcase.nsm)
-
-    @cached_property
+    @property
     def matrices(self) -> Matrices:
         """K, M, B and K4 of the g-set."""
-        case = self.subcase
-        direct = read_direct(
-            self.deck, self.points, k2gg=case.k2gg, m2gg=case.m2gg, b2gg=case.b2gg
-        )
-        return assemble(
-            self.points,
-            self.blocks,
-            coupled=self.deck.number("COUPMASS") > 0,
-            wtmass=self.deck.number("WTMASS"),
-            direct=direct,
-            factors=(
-                self.deck.number("CK1"),
-                self.deck.number("CM1"),
-                self.deck.number("CB1"),
-            ),
-        )
+        return self.model.matrices
 
-    @cached_property
+    @property
     def weight(self) -> Weight:
-        """Nastran's weight table (PARAM GRDPNT: reference grid), without PARAM WTMASS.
+        """Mass, centre of gravity and inertia, see `Model`."""
+        return self.model.weight
 
-        In the units that the deck gives masses or weights in; see `rigid_mass`.
-        """
-        grid = int(self.deck.number("GRDPNT"))
-        reference = self.points.xyz[self.points.rows(grid)] if grid > 0 else np.zeros(3)
-        return weigh(
-            self.points,
-            self.matrices.mass,
-            reference=reference,
-            wtmass=self.deck.number("WTMASS") or 1.0,  # 0 leaves no mass to divide
-        )
+    @property
+    def analysis_dof(self) -> Int64:
+        """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
+        return self.model.analysis_dof
 
-    @cached_property
-    def rigid_mass(self) -> Weight:
-        """Mass, centre of gravity and inertia that the dynamics have.
+    @property
+    def generalised_dof(self) -> Int64:
+        """(q,) rows of the g-set that QSET reserves for generalised coordinates."""
+        return self.model.generalised_dof
 
-        As `weight`, but about the origin and with PARAM WTMASS in it: what a deck that
-        gives weights moves like.
-        """
-        return weigh(self.points, self.matrices.mass)
+    @property
+    def support_dof(self) -> Int64:
+        """(r,) rows of the g-set that SUPORT names."""
+        return self.model.support_dof
+
+    @property
+    def damping_g(self) -> Damping:
+        """B of the g-set in transients, see `Model`."""
+        return self.model.damping
 
     # -- constraints ----------------------------------------------------------------
-
-    @cached_property
-    def _support(self) -> Support:
-        return support(
-            self.deck,
-            self.points,
-            self.subcase,
-            self.matrices.stiffness,
-            self.generalised_dof,
-        )
 
     @property
     def elimination(self) -> Elimination:
         """Constraints of the subcase, AUTOSPC included: u_g = T u_f + u_0."""
-        return self._support.elimination
+        return self._free.support.elimination
 
     @property
     def autospc(self) -> Singularities | None:
         """Freedoms that AUTOSPC constrained; None where it is switched off."""
-        return self._support.autospc
-
-    @cached_property
-    def generalised_dof(self) -> Int64:
-        """(q,) rows of the g-set that QSET reserves for generalised coordinates."""
-        return freedoms_of(self.deck, self.points, "QSET")
-
-    @cached_property
-    def analysis_dof(self) -> Int64:
-        """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
-        rows = freedoms_of(self.deck, self.points, "ASET")
-        return np.setdiff1d(rows, self.generalised_dof)
-
-    @cached_property
-    def support_dof(self) -> Int64:
-        """(r,) rows of the g-set that SUPORT names."""
-        return freedoms_of(self.deck, self.points, "SUPORT")
+        return self._free.support.autospc
 
     def free_rows(self, dof: npt.ArrayLike, card: str) -> Int64:
         """Positions of rows of the g-set in the f-set.
@@ -214,33 +166,22 @@ class Structure:
     @property
     def stiffness(self) -> sp.csr_matrix:
         """(f, f) K."""
-        return self._support.stiffness
+        return self._free.support.stiffness
 
-    @cached_property
+    @property
     def mass(self) -> sp.csr_matrix:
         """(f, f) M."""
-        return self.elimination.reduce(self.matrices.mass)
+        return self._free.mass
 
-    @cached_property
-    def damping_g(self) -> Damping:
-        """B = B1 + (G/W3 + ALPHA2) K + ALPHA1 M + K4/W4 of the g-set, in transients."""
-        return damping_in_transients(self.deck, self.matrices)
-
-    @cached_property
+    @property
     def damping(self) -> Damping:
         """(f, f) B with its proportional part apart, see `damping_g`."""
-        whole = self.damping_g
-        if whole.other is None:
-            return whole
-        return replace(whole, other=self.elimination.reduce(whole.other))
+        return self._free.damping
 
-    @cached_property
+    @property
     def rigid_body(self) -> Float64:
-        """(f, 6) motions of the free set as a rigid body about the centre of gravity.
-
-        Motions that constraints prevent cost energy; `normal_modes` sorts them out.
-        """
-        return rigid_modes(self.points, self.rigid_mass.center)[self.elimination.f]
+        """(f, 6) motions as a rigid body about the centre of gravity, see `FreeSet`."""
+        return self._free.rigid_body
 
     # -- between the sets -------------------------------------------------------------
 
@@ -292,37 +233,25 @@ class Structure:
 
     # -- messages ---------------------------------------------------------------------
 
-    @cached_property
+    @property
     def notices(self) -> list[str]:
         """What the user should know about this model, in words."""
-        lines = [
-            *self.deck.notices,
-            *element_notices(self.deck),
-            *quality_notices(self.blocks),
-            *describe_pieces(self.pieces),
-        ]
-        if self.autospc is not None and len(self.autospc.dof):
-            lines.append(f"AUTOSPC constrained {self.autospc.summary(self.points)}")
-        return lines
+        return self._free.notices
 
-    @cached_property
+    @property
     def quality(self) -> pd.DataFrame:
         """Worst shapes of surface and solid elements, see `quality_table`."""
-        return quality_table(self.blocks)
+        return self.model.quality
 
-    @cached_property
+    @property
     def pieces(self) -> list[Int64]:
         """Points of each piece of the model that nothing connects to the others."""
-        e = self.elimination
-        direct = read_direct(self.deck, self.points, k2gg=self.subcase.k2gg)
-        return unconnected_pieces(
-            self.points, self.blocks, e.dependence, e.m, direct.stiffness
-        )
+        return self._free.pieces
 
-    @cached_property
+    @property
     def damping_notices(self) -> list[str]:
         """Damping that the deck gives and that a transient does not use."""
-        return inactive_damping(self.deck, self.matrices)
+        return self.model.damping_notices
 
     def label(self, row: int) -> str:
         """Name of a row of the f-set: "grid 12 T3"."""
@@ -384,18 +313,6 @@ class Structure:
             ) from None
 
 
-_OF_MODEL = frozenset(
-    {
-        "analysis_dof",
-        "blocks",
-        "damping_g",
-        "generalised_dof",
-        "matrices",
-        "rigid_mass",
-        "support_dof",
-        "weight",
-    }
-)
-_OF_SUPPORT = frozenset(
-    {"_support", "mass", "damping", "rigid_body", "notices", "damping_notices"}
-)
+def system_of(subcase: Subcase) -> tuple[ModelChoice, ConstraintChoice]:
+    """What the matrices of a subcase depend on; equal for those that share them."""
+    return ModelChoice.of(subcase), ConstraintChoice.of(subcase)

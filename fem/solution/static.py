@@ -15,7 +15,7 @@ from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.loads import enforced_displacements, static_element_loads, static_load
 from fem.loads.element_loads import ElementLoads, below_each_other
-from fem.model.structure import Structure
+from fem.model.structure import Structure, system_of
 from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
 from fem.recovery.grid_forces import grid_balance, grids_of, strain_energy
 from fem.solution.options import Options
@@ -118,9 +118,7 @@ def _summary(
 
 
 def _with_same_support(subcases: Iterable[Subcase]) -> Iterator[list[Subcase]]:
-    for _, group in groupby(
-        subcases, key=lambda c: (c.spc, c.mpc, c.suport1, c.nsm, c.k2gg, c.m2gg)
-    ):
+    for _, group in groupby(subcases, key=system_of):
         yield list(group)
 
 

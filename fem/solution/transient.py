@@ -25,7 +25,7 @@ from fem.files.force_histories import (
 from fem.files.hdf5 import PointLayout, ResultFile
 from fem.loads import dynamic_excitation, initial_conditions, time_steps
 from fem.loads.element_loads import ElementLoads, side_by_side
-from fem.model.structure import Structure
+from fem.model.structure import Structure, system_of
 from fem.recovery.elements import (
     ElementTable,
     element_tables,
@@ -84,8 +84,7 @@ def solve_transients(
 
 
 def _same_system(c: Subcase) -> tuple[object, ...]:
-    matrices = (c.nsm, c.k2gg, c.m2gg, c.b2gg)
-    return (c.spc, c.mpc, c.tstep, c.method, c.sdamping, c.analysis, *matrices)
+    return system_of(c), c.tstep, c.method, c.sdamping, c.analysis
 
 
 def _is_modal(model: Structure) -> bool:

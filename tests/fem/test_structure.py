@@ -133,6 +133,19 @@ def test_subcases_share_what_does_not_depend_on_them(deck_of):
     assert again.stiffness is first.stiffness
 
 
+def test_a_subcase_with_other_mass_has_a_model_of_its_own(deck_of):
+    text = (
+        BAR.replace("METHOD = 1\n", "METHOD = 1\nSUBCASE 1\nSUBCASE 2\nNSM = 5\n")
+        + "NSML1,5,PBAR,3.,ALL\n"
+    )
+    deck = deck_of(text)
+    first = fem.Structure.from_deck(deck)
+    second = first.with_subcase(deck.subcase(2))
+    assert second.weight.total == pytest.approx(first.weight.total + 3.0)
+    assert second.points is first.points
+    assert second.subcase.id == 2
+
+
 def test_import_is_quick_and_every_public_name_is_there():
     code = (
         "import sys, fem\n"

@@ -1,0 +1,111 @@
+"""`FreeSet`: what is left of a model when its constraints are eliminated.
+
+Subcases with the same SPC and MPC sets share one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import scipy.sparse as sp
+
+from fem.algebra.damping import Damping
+from fem.arrays import Float64, Int64
+from fem.constraints.support import Support, support
+from fem.elements.quality import quality_notices
+from fem.elements.registry import element_notices
+from fem.model.model import Model
+from fem.model.pieces import describe_pieces, unconnected_pieces
+from fem.model.weight import rigid_modes
+
+if TYPE_CHECKING:
+    from fem.deck.case_control import Subcase
+
+
+@dataclass(frozen=True)
+class ConstraintChoice:
+    """Sets of constraints that a subcase chooses; names as in `Subcase`."""
+
+    spc: int
+    mpc: int
+
+    @classmethod
+    def of(cls, subcase: Subcase) -> ConstraintChoice:
+        """Of a subcase."""
+        return cls(*(getattr(subcase, item.name) for item in fields(cls)))
+
+
+class FreeSet:
+    """A model held by constraints: matrices of the f-set, computed when asked for.
+
+    Args:
+        model: the model.
+        choice: the constraints.
+    """
+
+    def __init__(self, model: Model, choice: ConstraintChoice) -> None:
+        self.model, self.choice = model, choice
+
+    def under(self, subcase: Subcase) -> FreeSet:
+        """The free set under another subcase: itself, where that chooses alike."""
+        model, choice = self.model.under(subcase), ConstraintChoice.of(subcase)
+        same = model is self.model and choice == self.choice
+        return self if same else FreeSet(model, choice)
+
+    @cached_property
+    def support(self) -> Support:
+        """Constraints, AUTOSPC included, and (f, f) K."""
+        return support(
+            self.model.deck,
+            self.model.points,
+            self.model.matrices.stiffness,
+            spc=self.choice.spc,
+            mpc=self.choice.mpc,
+            generalised=self.model.generalised_dof,
+        )
+
+    @cached_property
+    def mass(self) -> sp.csr_matrix:
+        """(f, f) M."""
+        return self.support.elimination.reduce(self.model.matrices.mass)
+
+    @cached_property
+    def damping(self) -> Damping:
+        """(f, f) B with its proportional part apart, see `Model.damping`."""
+        whole = self.model.damping
+        if whole.other is None:
+            return whole
+        return replace(whole, other=self.support.elimination.reduce(whole.other))
+
+    @cached_property
+    def rigid_body(self) -> Float64:
+        """(f, 6) motions of the free set as a rigid body about the centre of gravity.
+
+        Motions that constraints prevent cost energy; `normal_modes` sorts them out.
+        """
+        motions = rigid_modes(self.model.points, self.model.weight.center)
+        return motions[self.support.elimination.f]
+
+    @cached_property
+    def pieces(self) -> list[Int64]:
+        """Points of each piece of the model that nothing connects to the others."""
+        model, e = self.model, self.support.elimination
+        return unconnected_pieces(
+            model.points, model.blocks, e.dependence, e.m, model.direct.stiffness
+        )
+
+    @cached_property
+    def notices(self) -> list[str]:
+        """What the user should know about this model, in words."""
+        deck, autospc = self.model.deck, self.support.autospc
+        lines = [
+            *deck.notices,
+            *element_notices(deck),
+            *quality_notices(self.model.blocks),
+            *describe_pieces(self.pieces),
+        ]
+        if autospc is not None and len(autospc.dof):
+            lines.append(f"AUTOSPC constrained {autospc.summary(self.model.points)}")
+        return lines
