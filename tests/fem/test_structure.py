@@ -153,7 +153,7 @@ def test_import_is_quick_and_every_public_name_is_there():
         "for name in fem.__all__: getattr(fem, name)\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
-    with pytest.raises(AttributeError, match="no attribute"):
+    with pytest.raises(AttributeError, match="nonsense"):
         fem.nonsense  # noqa: B018
 
 
