@@ -1,8 +1,8 @@
 """What a case says about the parts that are to be looked at. SI units, deck axes B."""
 
-from typing import Literal, Self
+from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from drake_landing.case.section import Section, number
 
@@ -10,7 +10,7 @@ Range = tuple[float, float]
 
 
 class Within(Section):
-    """Ranges of x, y, z that grids must lie in; absent: everywhere."""
+    """Ranges of x, y, z of the deck that grids must lie in; absent: everywhere."""
 
     x: Range | None = None
     y: Range | None = None
@@ -18,30 +18,38 @@ class Within(Section):
 
 
 class Beam(Section):
-    """A part of the airframe that is cut at stations: wing, fuselage, ..."""
+    """A part of the airframe that is cut at stations: wing, fuselage, ...
+
+    All coordinates are those of the deck's basic frame.
+    """
 
     name: str = Field(description="e.g. right wing")
-    outward: Literal["aft", "fore", "starboard", "port"] = Field(
+    outward: Literal["aft", "fore", "starboard", "port", "up", "down"] = Field(
         description="where the part that is cut off lies, as seen from the cut"
     )
-    first: float = number("coordinate of the first cut: along aft or starboard", "m")
+    first: float = number(
+        "coordinate of the first cut along the deck's axis that points aft, to "
+        "starboard or up, or against it",
+        "m",
+    )
     last: float = number("of the last cut", "m")
     count: int = Field(default=16, ge=2, le=200, description="number of cuts")
+    grid: int | None = Field(
+        default=None,
+        description="a grid of the part beyond its last cut: of what the cuts take "
+        "off, the connected piece that holds this grid belongs to the part",
+    )
     within: tuple[Within, ...] = Field(
         default=(),
-        description="boxes along aft, starboard and up; grids in any of them belong "
-        "to the part; none: all grids beyond the cut",
+        description="boxes; grids in any of them belong to the part. Without boxes and "
+        "grid every connected piece beyond the cuts is a part of its own",
     )
-
-    @model_validator(mode="after")
-    def _outward(self) -> Self:
-        ahead = self.last - self.first
-        if ahead == 0 or (ahead > 0) != (self.outward in ("aft", "starboard")):
-            raise ValueError(
-                f"first {self.first:g} and last {self.last:g}: the last cut must lie "
-                f"{self.outward} of the first"
-            )
-        return self
+    line: tuple[tuple[float, float, float], ...] | None = Field(
+        default=None,
+        min_length=1,
+        description="points of a line that moments refer to, where it meets the cuts; "
+        "without, the EA-weighted center of the elements that cross",
+    )
 
 
 class Panel(Section):
@@ -66,8 +74,8 @@ class Parts(Section):
     )
     beams: tuple[Beam, ...] = Field(
         default=(),
-        description="cuts for section loads; without, the whole airframe is cut across "
-        "span and length",
+        description="cuts for section loads; without, every part that stands out of "
+        "the airframe is cut",
     )
     panels: tuple[Panel, ...] = Field(
         default=(), description="panel middles, beside their frames"

@@ -1,47 +1,61 @@
 """Where one looks in a case: what it names, a built-in model's places, any deck's."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
 from drake_landing.case import parts as settings
-from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam
+from drake_landing.parts.branches import (
+    beams_of_branches,
+    grid_masses,
+    named_apart,
+    part_name,
+)
+from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam, Cutter, axis_name
+from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.places import Panel, Places
+from drake_landing.parts.section_point import crossing
 from fem.errors import InputError
-from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 
-_CUTS = 12  # of a deck that nothing is known about
-_MARGIN = 0.08  # of its size, beyond the first and last of them
+_LEAST = 1e-3  # of the mass beyond a cut: lighter pieces are no parts
 
 
 def places_of(
-    structure: Structure,
+    cutter: Cutter,
     parts: settings.Parts,
     R_AB: Float64,
     monitoring: Mapping[str, int],
     known: Places | None,
+    elements: Inventory,
+    loaded: Sequence[int],
 ) -> Places:
     """The places of a case; those that it does not name are found.
 
     Args:
-        structure: the full model.
+        cutter: of the full model.
         parts: of the case.
         R_AB: (3, 3) from the deck's axes.
         monitoring: points that stand for equipment where nothing else is known.
         known: of a parametric aircraft; None for a deck of the user's own.
+        elements: of the model, which name the parts that are found.
+        loaded: nodes that loads act on.
 
     Raises:
-        InputError: grids that do not exist.
+        InputError: grids that do not exist, cuts that do not go outward.
     """
-    beams = tuple(_beam(beam, R_AB) for beam in parts.beams)
+    structure = cutter.structure
+    beams = tuple(_named(cutter, parts.beams, R_AB, elements))
+    if not beams and known is None:
+        beams = beams_of_branches(cutter, R_AB, loaded, elements)
     panels = tuple(
         Panel(name=p.name, grid=p.grid, beside=p.beside) for p in parts.panels
     )
     found = Places(
-        beams=beams or (known.beams if known else across(structure, R_AB)),
+        beams=beams or (known.beams if known else ()),
         panels=panels or (known.panels if known else ()),
         equipment=parts.equipment
         or (known.equipment if known and known.equipment else dict(monitoring)),
@@ -59,32 +73,55 @@ def places_of(
     return found
 
 
-def across(structure: Structure, R_AB: Float64) -> tuple[Beam, ...]:
-    """Cuts through the whole airframe across span and length."""
-    p = structure.points.xyz @ R_AB.T
-    low, high = p.min(axis=0), p.max(axis=0)
-    size = high - low
-    beams = []
-    if size[1] > 0.0:
-        middle = 0.5 * (low[1] + high[1])
-        reach = 0.5 * size[1] * np.linspace(_MARGIN, 1.0 - _MARGIN, _CUTS)
-        for name, sign in (("starboard", 1.0), ("port", -1.0)):
-            beams.append((f"all to {name} of the cut", name, middle + sign * reach))
-    if size[0] > 0.0:
-        x = low[0] + size[0] * np.linspace(_MARGIN, 1.0 - _MARGIN, _CUTS)
-        beams.append(("all behind the cut", "aft", x))
-    return tuple(
-        Beam(name=name, outward=outward, stations=stations, R_AB=R_AB)
-        for name, outward, stations in beams
-    )
+def _named(
+    cutter: Cutter,
+    beams: Sequence[settings.Beam],
+    R_AB: Float64,
+    elements: Inventory,
+) -> Iterator[Beam]:
+    """Beams of a case; one that names no box takes each connected piece for itself.
+
+    Raises:
+        InputError: the last cut does not lie outward of the first.
+    """
+    for given in beams:
+        boxes = tuple((w.x or ANY, w.y or ANY, w.z or ANY) for w in given.within)
+        line = None if given.line is None else np.array(given.line, float)
+        beam = Beam(
+            name=given.name,
+            outward=given.outward,
+            stations=np.linspace(given.first, given.last, given.count),
+            tips=() if given.grid is None else (given.grid,),
+            boxes=boxes or (EVERYWHERE,),
+            line=line,
+            R_AB=R_AB,
+        )
+        if np.any(np.diff(beam.along) <= 0.0):
+            raise InputError(
+                f"parts.beams: {given.name}: first {given.first:g} and last "
+                f"{given.last:g}: the last cut must lie {given.outward} of the first, "
+                f"which is toward {axis_name(beam.direction)} in the deck's axes"
+            )
+        yield from [beam] if boxes or beam.tips else _pieces(cutter, beam, elements)
 
 
-def _beam(beam: settings.Beam, R_AB: Float64) -> Beam:
-    boxes = tuple((w.x or ANY, w.y or ANY, w.z or ANY) for w in beam.within)
-    return Beam(
-        name=beam.name,
-        outward=beam.outward,
-        stations=np.linspace(beam.first, beam.last, beam.count),
-        boxes=boxes or (EVERYWHERE,),
-        R_AB=R_AB,
-    )
+def _pieces(cutter: Cutter, beam: Beam, elements: Inventory) -> Sequence[Beam]:
+    """A beam for each piece beyond the first cut that weighs something and deforms."""
+    d, along = beam.direction, float(beam.along[0])
+    piece = cutter.links.pieces(cutter.beyond(d, along))
+    weight = np.bincount(piece + 1, grid_masses(cutter.structure))[1:]
+    s = cutter.structure.points.xyz @ d
+    ids = cutter.structure.points.grid_id
+    found = []
+    for k in np.flatnonzero(weight > _LEAST * weight.sum()):
+        own = piece == k
+        tip = int(np.argmax(np.where(own, s, -np.inf)))
+        held = crossing(cutter.links, cutter.elements, own, d, along)
+        cuts = int(np.searchsorted(beam.along, s[tip] + cutter.tolerance))
+        if len(held.id):
+            stations = beam.stations[:cuts]
+            found.append(replace(beam, tips=(int(ids[tip]),), stations=stations))
+    if len(found) < 2:
+        return found or [beam]
+    names = [f"{beam.name}: {part_name(cutter, b, elements)}" for b in found]
+    return named_apart(cutter, found, names)

@@ -1,31 +1,38 @@
 """Section loads: what passes through cuts of the airframe, by equilibrium.
 
-A cut takes a part off the airframe. Its section load is the resultant of everything
-that acts on that part, inertia included:
+A cut is a plane across an axis of the deck. Elements that cross it are removed, the
+outer side falls into connected pieces, and a piece is taken off the airframe. Its
+section load is the resultant of everything that acts on that piece, inertia included:
 
     F = Σ (P - M ü - β M u̇),    moment about the cut's point likewise,
 
-the sum over the grids of the part. No element is asked: shells, beams and rigid
-elements are cut alike. M is the mass matrix of the full model, β the mass-proportional
-damping, which acts from outside; all other damping is internal. P are the loads of the
-gears on the airframe: inertia and weight of the gears themselves are in them.
+the sum over the grids of the piece. It equals the sum of the forces that the removed
+elements, shells, beams and rigid elements alike, exert on the piece with the sign
+changed. M is the mass matrix of the full model, β the mass-proportional damping, which
+acts from outside; all other damping is internal. P are the loads of the gears on the
+airframe: inertia and weight of the gears themselves are in them.
 
 The cuts of a beam share their grids: what lies between two cuts is added up once, and
-the section loads are running sums from the end of the beam.
+the section loads are running sums from the end of the beam. A grid in the plane belongs
+to the outer side. All of it is in the deck's basic frame B.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
 
+from drake_landing.parts.connections import Connections, connections
+from drake_landing.parts.section_point import Stretched, crossing, stretched
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
+Bool = npt.NDArray[np.bool_]
 Box = tuple[tuple[float, float], tuple[float, float], tuple[float, float]]
 
 COMPONENTS = ("fx", "fy", "fz", "mx", "my", "mz")
@@ -33,54 +40,80 @@ COMPONENTS = ("fx", "fy", "fz", "mx", "my", "mz")
 NAMED = ("shear", "bending", "torsion")
 ANY = (-1e9, 1e9)
 EVERYWHERE: Box = (ANY, ANY, ANY)
+# In the axes A: aft, starboard, up.
 _OUTWARD = {
     "aft": (1.0, 0.0, 0.0),
     "fore": (-1.0, 0.0, 0.0),
     "starboard": (0.0, 1.0, 0.0),
     "port": (0.0, -1.0, 0.0),
+    "up": (0.0, 0.0, 1.0),
+    "down": (0.0, 0.0, -1.0),
 }
+_SAME = 1e-9  # of the size of the model: grids nearer than this to a plane lie in it
+
+
+def outward_axis(outward: str, R_AB: Float64) -> Float64:
+    """(3,) unit vector in B of aft, fore, starboard, port, up or down."""
+    return np.array(_OUTWARD[outward]) @ R_AB
+
+
+def axis_name(direction: Float64) -> str:
+    """The axis of B along which a vector points: `-x`."""
+    axis = int(np.abs(direction).argmax())
+    return "-" * bool(direction[axis] < 0.0) + "xyz"[axis]
 
 
 @dataclass(frozen=True, kw_only=True)
 class Beam:
-    """A part of the airframe with cuts across it, in the axes A (aft, starboard, up).
+    """A part of the airframe with cuts across it.
 
     Attributes:
-        name: e.g. right wing.
-        outward: aft, fore, starboard or port: where the part lies that is cut off.
-        stations: (n,) coordinates of the cuts along that axis, from the root outward.
-        boxes: ranges of x, y, z; grids in any of them belong to the beam.
-        line: (k, 3) points of a line that moments refer to; None: the middle of the
-            grids next to each cut.
-        R_AB: (3, 3) from the deck's basic axes.
+        name: e.g. wing, starboard.
+        outward: aft, fore, starboard, port, up or down: where the part lies that is cut
+            off.
+        stations: (n,) coordinates of the cuts along the deck's axis (`axis`), from the
+            root outward, m.
+        tips: grids, B: pieces that hold any of them belong to the beam; none: every
+            piece.
+        boxes: ranges of x, y, z, B; grids in any of them belong to the beam.
+        line: (k, 3) points of a line, B, that moments refer to; None: the EA-weighted
+            centre of the elements that cross.
+        R_AB: (3, 3) axes A in B.
     """
 
     name: str
     outward: str
     stations: Float64
+    tips: tuple[int, ...] = ()
     boxes: tuple[Box, ...] = (EVERYWHERE,)
     line: Float64 | None = None
     R_AB: Float64 = field(default_factory=lambda: np.eye(3), repr=False)
 
     @property
     def direction(self) -> Float64:
-        """(3,) outward, axes A."""
-        return np.array(_OUTWARD[self.outward])
+        """(3,) outward, B."""
+        return outward_axis(self.outward, self.R_AB)
+
+    @property
+    def axis(self) -> str:
+        """Axis of B that `stations` are coordinates of: x, y or z."""
+        return axis_name(self.direction)[-1]
+
+    @property
+    def along(self) -> Float64:
+        """(n,) stations as coordinates along the outward direction, ascending."""
+        return self.stations * self.direction.sum()
+
+    @property
+    def lift(self) -> Float64:
+        """(3,) direction of positive shear, B: up; of vertical parts starboard."""
+        upright = self.outward in ("up", "down")
+        return outward_axis("starboard" if upright else "up", self.R_AB)
 
     @property
     def across(self) -> Float64:
-        """(3,) axis of bending, A: positive bending turns the outer end upward."""
-        return np.cross(self.direction, [0.0, 0.0, 1.0])
-
-    def strip(self, p: Float64) -> Int64:
-        """Cut inside of which grids (g, 3) in A lie, -1: not beyond any cut."""
-        s = p @ self.direction
-        cuts = self.stations * self.direction.sum()
-        inside = np.zeros(len(p), bool)
-        for box in self.boxes:
-            low, high = np.array(box).T
-            inside |= np.all((p >= low) & (p <= high), axis=1)
-        return np.where(inside, np.searchsorted(cuts, s, side="right") - 1, -1)
+        """(3,) axis of bending, B: positive bending turns the outer end to `lift`."""
+        return np.cross(self.direction, self.lift)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,10 +122,12 @@ class BeamCuts:
 
     Attributes:
         beam: its name, stations and axes.
-        point: (n, 3) of the cuts, where moments refer to, A, m.
-        of_acceleration: (6 n, f) inertia of each strip about the origin of A, A.
+        point: (n, 3) of the cuts, where moments refer to, B, m.
+        of_acceleration: (6 n, f) inertia of each strip about the origin, B.
         loaded: node -> its strip, of the loaded nodes beyond any cut.
-        arm: node -> (6, 6) from force and moment there, B, to those at the origin, A.
+        arm: node -> (6, 6) from force and moment there to those at the origin, B.
+        strip: (g,) cut beyond which each grid lies, -1: beyond none.
+        crossing: elements that cross each cut, those of rigid elements left out.
     """
 
     beam: Beam
@@ -100,9 +135,11 @@ class BeamCuts:
     of_acceleration: sp.csr_matrix
     loaded: Mapping[int, int]
     arm: Mapping[int, Float64]
+    strip: Int64 = field(repr=False)
+    crossing: tuple[Int64, ...] = field(default=(), repr=False)
 
     def loads(self, inertia: Float64, node_id: Int64, load: Float64) -> Float64:
-        """(t, n, 6) section loads, columns `COMPONENTS`, axes A.
+        """(t, n, 6) section loads, columns `COMPONENTS`, B.
 
         Args:
             inertia: (t, 6 n) `of_acceleration` times the accelerations.
@@ -120,13 +157,13 @@ class BeamCuts:
     def named(self, loads: Float64) -> Float64:
         """(t, n, 3) of `NAMED` from section loads (t, n, 6).
 
-        Shear is upward; bending lifts the outer end; torsion turns about the outward
-        direction.
+        Shear is upward and bending lifts the outer end, of vertical parts to starboard
+        instead; torsion turns about the outward direction.
         """
         beam = self.beam
         return np.stack(
             [
-                loads[..., 2],
+                loads[..., :3] @ beam.lift,
                 loads[..., 3:] @ beam.across,
                 loads[..., 3:] @ beam.direction,
             ],
@@ -134,61 +171,130 @@ class BeamCuts:
         )
 
 
-def beam_cuts(
-    structure: Structure, beam: Beam, loaded: Mapping[int, Float64]
-) -> BeamCuts:
-    """Maps of the cuts of a beam.
+class Cutter:
+    """Cuts a structure; what all its cuts share is found once."""
 
-    Args:
-        structure: the full model.
-        beam: where it is cut.
-        loaded: node -> (3,) position in B of every node that loads act on, m.
+    def __init__(self, structure: Structure) -> None:
+        self.structure = structure
 
-    Raises:
-        ValueError: no grid lies beyond the last cut.
-    """
-    points, R = structure.points, beam.R_AB
-    p = points.xyz @ R.T
-    strip = beam.strip(p)
-    if not np.any(strip == len(beam.stations) - 1):
-        raise ValueError(
-            f"{beam.name}: no grid of the model lies beyond the cut at "
-            f"{beam.stations[-1]:g} m"
+    @cached_property
+    def links(self) -> Connections:
+        """What holds the grids together."""
+        return connections(self.structure)
+
+    @cached_property
+    def elements(self) -> list[Stretched]:
+        """Elements under a stretch, for the centres of sections."""
+        return stretched(self.structure)
+
+    @cached_property
+    def tolerance(self) -> float:
+        """Grids nearer to a plane lie in it, m."""
+        p = self.structure.points.xyz
+        return _SAME * float(np.ptp(p, axis=0).max(initial=0.0))
+
+    def beyond(self, direction: Float64, along: float) -> Bool:
+        """(g,) grids on the outer side of a plane, or in it.
+
+        Args:
+            direction: (3,) outward, B.
+            along: of the plane along it, m.
+        """
+        return self.structure.points.xyz @ direction >= along - self.tolerance
+
+    def strip(self, beam: Beam) -> Int64:
+        """(g,) cut of a beam beyond which each grid lies, -1: beyond none."""
+        p = self.structure.points.xyz
+        inside = np.zeros(len(p), bool)
+        for box in beam.boxes:
+            low, high = np.array(box).T
+            inside |= np.all((p >= low) & (p <= high), axis=1)
+        tips = self.structure.points.rows(np.array(beam.tips, np.int64))
+        strip = np.full(len(p), -1)
+        for i, along in enumerate(beam.along):
+            own = inside & self.beyond(beam.direction, along)
+            if len(tips):
+                own &= self.held_by(tips, beam.direction, along)
+            strip[own] = i
+        return strip
+
+    def held_by(self, tips: Int64, direction: Float64, along: float) -> Bool:
+        """(g,) grids of the pieces beyond a plane that hold any of the grids `tips`."""
+        piece = self.links.pieces(self.beyond(direction, along))
+        return np.isin(piece, piece[tips][piece[tips] >= 0])
+
+    def cuts(self, beam: Beam, loaded: Sequence[int]) -> BeamCuts:
+        """Maps of the cuts of a beam.
+
+        Args:
+            beam: where it is cut.
+            loaded: every node that loads act on.
+
+        Raises:
+            ValueError: no grid lies beyond the last cut.
+        """
+        points = self.structure.points
+        strip = self.strip(beam)
+        if not np.any(strip == len(beam.stations) - 1):
+            raise ValueError(
+                f"{beam.name}: no grid of the model lies beyond the cut at "
+                f"{beam.axis} = {beam.stations[-1]:g} m"
+            )
+        inside = np.flatnonzero(strip >= 0)
+        gather = _resultants(points.xyz[inside], strip[inside], len(beam.stations))
+        dof = points.dof(points.grid_id[inside][:, None], np.arange(1, 7)[None, :])
+        # Forces of the g-set turned into basic axes, then added up.
+        turn = sp.csr_matrix(points.basic_rotation()[dof.reshape(-1)])
+        mass, T = self.structure.matrices.mass, self.structure.elimination.T
+        at = points.rows(np.array(loaded, np.int64))
+        point, crossed = self._points(beam, strip)
+        return BeamCuts(
+            beam=beam,
+            point=point,
+            of_acceleration=sp.csr_matrix(gather @ turn @ mass @ T),
+            loaded={n: int(strip[a]) for n, a in zip(loaded, at) if strip[a] >= 0},
+            arm={n: _about_origin(points.xyz[a]) for n, a in zip(loaded, at)},
+            strip=strip,
+            crossing=crossed,
         )
-    inside = np.flatnonzero(strip >= 0)
-    gather = _resultants(p[inside], strip[inside], len(beam.stations), R)
-    dof = points.dof(points.grid_id[inside][:, None], np.arange(1, 7)[None, :])
-    # Forces of the g-set turned into basic axes, then added up.
-    turn = sp.csr_matrix(points.basic_rotation()[dof.reshape(-1)])
-    of_acceleration = sp.csr_matrix(
-        gather @ turn @ structure.matrices.mass @ structure.elimination.T
-    )
-    places = np.array([R @ place for place in loaded.values()]).reshape(-1, 3)
-    of_node = beam.strip(places)
-    return BeamCuts(
-        beam=beam,
-        point=_points(p[inside], strip[inside], beam),
-        of_acceleration=of_acceleration,
-        loaded={n: int(s) for n, s in zip(loaded, of_node) if s >= 0},
-        arm={n: _about_origin(place, R) for n, place in zip(loaded, places)},
-    )
+
+    def _points(self, beam: Beam, strip: Int64) -> tuple[Float64, tuple[Int64, ...]]:
+        """(n, 3) points of the cuts, and the elements that cross where looked for."""
+        d = beam.direction
+        if beam.line is not None:
+            order = np.argsort(beam.line @ d)
+            s, line = (beam.line @ d)[order], beam.line[order]
+            found = np.stack(
+                [np.interp(beam.along, s, line[:, i]) for i in range(3)], axis=1
+            )
+            return found + np.outer(beam.along - found @ d, d), ()
+        crossed = [
+            crossing(self.links, self.elements, strip >= i, d, along)
+            for i, along in enumerate(beam.along)
+        ]
+        return np.array([c.point for c in crossed]), tuple(c.id for c in crossed)
 
 
 def envelope_table(cuts: BeamCuts, time: Float64, loads: Float64) -> pd.DataFrame:
     """Extremes of shear, bending and torsion at the cuts, with their instants.
 
     Returns:
-        Rows `beam, station, quantity, min, time_of_min, max, time_of_max`.
+        Rows `beam, axis, station, point_x, point_y, point_z, quantity, direction, min,
+        time_of_min, max, time_of_max`: the station along an axis of B, the point that
+        moments refer to (B, m), the axis of B that the quantity acts along or about.
     """
     named = cuts.named(loads)
     low, high = named.argmin(axis=0), named.argmax(axis=0)
-    rows = []
-    for i, station in enumerate(cuts.beam.stations):
+    beam, rows = cuts.beam, []
+    acts = [axis_name(v) for v in (beam.lift, beam.across, beam.direction)]
+    for i, station in enumerate(beam.stations):
         for q, quantity in enumerate(NAMED):
             a, b = low[i, q], high[i, q]
             found = (named[a, i, q], time[a], named[b, i, q], time[b])
-            rows.append([cuts.beam.name, station, quantity, *map(float, found)])
-    heads = ["beam", "station", "quantity", "min", "time_of_min", "max", "time_of_max"]
+            place = (beam.name, beam.axis, station, *cuts.point[i])
+            rows.append([*place, quantity, acts[q], *map(float, found)])
+    heads = ["beam", "axis", "station", "point_x", "point_y", "point_z", "quantity",
+             "direction", "min", "time_of_min", "max", "time_of_max"]  # fmt: skip
     return pd.DataFrame(rows, columns=heads)
 
 
@@ -206,33 +312,14 @@ def mean_of_three(load: Float64) -> Float64:
     return (before + middle + after) / 3.0
 
 
-def _points(p: Float64, strip: Int64, beam: Beam) -> Float64:
-    """(n, 3) middles of the grids nearest beyond each cut, put onto the cut."""
-    d, points = beam.direction, []
-    if beam.line is not None:
-        along = np.argsort(beam.line @ d)
-        s, line = (beam.line @ d)[along], beam.line[along]
-        at = beam.stations * d.sum()
-        found = np.stack([np.interp(at, s, line[:, i]) for i in range(3)], axis=1)
-        return found + np.outer(at - found @ d, d)
-    spacing = float(np.abs(np.diff(beam.stations)).max())
-    for i, station in enumerate(beam.stations):
-        own = p[strip >= i]
-        ahead = own @ d - station * d.sum()
-        near = own[ahead <= max(ahead.min() + 1e-6, min(0.5 * spacing, 0.5))]
-        middle = 0.5 * (near.min(axis=0) + near.max(axis=0))
-        points.append(middle + d * (station * d.sum() - middle @ d))
-    return np.array(points)
-
-
-def _resultants(p: Float64, strip: Int64, strips: int, R: Float64) -> sp.csr_matrix:
-    """(6 n, 6 g) force and moment about the origin, A, of forces and moments, B."""
+def _resultants(p: Float64, strip: Int64, strips: int) -> sp.csr_matrix:
+    """(6 n, 6 g) force and moment about the origin of forces and moments, B."""
     maps = np.zeros((len(p), 6, 6))
-    maps[:, :3, :3] = maps[:, 3:, 3:] = R
+    maps[:] = np.eye(6)
     x, y, z = p.T
     zero = np.zeros_like(x)
     cross = np.stack([zero, -z, y, z, zero, -x, -y, x, zero], axis=1).reshape(-1, 3, 3)
-    maps[:, 3:, :3] = cross @ R
+    maps[:, 3:, :3] = cross
     row = 6 * strip[:, None, None] + np.arange(6)[:, None]
     column = 6 * np.arange(len(p))[:, None, None] + np.arange(6)[None, :]
     row, column = np.broadcast_arrays(row, column)
@@ -242,7 +329,7 @@ def _resultants(p: Float64, strip: Int64, strips: int, R: Float64) -> sp.csr_mat
     )
 
 
-def _about_origin(place: Float64, R: Float64) -> Float64:
-    """(6, 6) of one node at `place` (3,) in A."""
-    one = _resultants(place[None], np.zeros(1, np.int64), 1, R)
+def _about_origin(place: Float64) -> Float64:
+    """(6, 6) of one node at `place` (3,), B."""
+    one = _resultants(place[None], np.zeros(1, np.int64), 1)
     return one.toarray()

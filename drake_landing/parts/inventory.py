@@ -3,12 +3,13 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.show.comments import component_names, read_names
+from drake_landing.show.comments import KINDS, component_names, read_names
 from fem.deck.grids import grids_of
 from fem.deck.records import CARDS, TABLES, topologies
 from fem.model.structure import Structure
@@ -28,9 +29,11 @@ class Inventory:
         elements: one row each, ascending `id`; columns `card`, `pid`, `component`,
             `material` (0: none of its own), `x`, `y`, `z` (middle of its grids, B, m),
             `allowed` (stress, Pa; NaN where unknown).
+        kinds: components that are kinds of elements, where a deck names none.
     """
 
     elements: pd.DataFrame
+    kinds: ClassVar[frozenset[str]] = frozenset(KINDS.values())
 
     @property
     def components(self) -> list[str]:

@@ -31,7 +31,7 @@ class Slices:
     Attributes:
         time: (s,) instants, s.
         reason: what is extreme at each.
-        sections: beam -> (s, n, 6), columns `COMPONENTS`, axes A.
+        sections: beam -> (s, n, 6), columns `COMPONENTS`, B.
         acceleration: grid -> (s, 3), B, m/s².
         stress: (s, e, 3) `MEASURES` of the elements of `Stresses`.
     """

@@ -10,10 +10,9 @@ import scipy.sparse as sp
 
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import (
-    EVERYWHERE,
     Beam,
     BeamCuts,
-    beam_cuts,
+    Cutter,
     mean_of_three,
 )
 from drake_landing.parts.inventory import Inventory
@@ -32,7 +31,7 @@ class CaseFound:
     """One load case.
 
     Attributes:
-        sections: beam -> (t, n, 6) section loads, columns `COMPONENTS`, axes A.
+        sections: beam -> (t, n, 6) section loads, columns `COMPONENTS`, B.
         acceleration: grid -> (t, 3), B, m/s².
         stress: one row per element: `id`, `component`, `material`, `x`, `y`, `z`,
             `allowed`, `equivalent` and its `time`, `largest`, `smallest` (Pa, s).
@@ -75,14 +74,15 @@ class PartsFound:
     def looked_at(self) -> dict[str, int]:
         """Beam -> the cut that is looked at over time.
 
-        The first, which is the root; where the whole airframe is cut, that with the
-        largest bending moment.
+        The first, which is the root; ahead and behind, where nothing says what the root
+        is, that with the largest bending moment.
         """
         found = {}
         for name, cuts in self.cuts.items():
             bending = cuts.named(self.landing.sections[name])[..., 1]
             largest = int(np.abs(bending).max(axis=0).argmax())
-            found[name] = largest if cuts.beam.boxes == (EVERYWHERE,) else 0
+            lengthwise = cuts.beam.outward in ("fore", "aft")
+            found[name] = largest if lengthwise and cuts.beam.tips else 0
         return found
 
     @property
@@ -95,7 +95,7 @@ class PartsWatch:
     """Observers of a transient, and what they found.
 
     Args:
-        structure: the full model.
+        cutter: of the full model.
         places: where to look.
         elements: of the deck.
         grids: further grids whose accelerations are wanted.
@@ -106,7 +106,7 @@ class PartsWatch:
 
     def __init__(
         self,
-        structure: Structure,
+        cutter: Cutter,
         places: Places,
         elements: Inventory,
         grids: Sequence[int],
@@ -115,6 +115,7 @@ class PartsWatch:
         averaged: bool = True,
         steady: Float64 | None = None,
     ) -> None:
+        structure = cutter.structure
         self.places, self.elements = places, elements
         self.stresses: Stresses = stresses(structure)
         self._averaged = averaged
@@ -124,9 +125,9 @@ class PartsWatch:
         self._stress = StressWatch(
             self.stresses, group, self._rows.allowed.to_numpy(float), steady
         )
-        node = {int(n): structure.points.xyz[structure.points.rows(n)] for n in loaded}
-        self.cuts = {b.name: beam_cuts(structure, b, node) for b in places.beams}
-        self._whole = beam_cuts(structure, _everything(structure), node)
+        nodes = [int(n) for n in loaded]
+        self.cuts = {b.name: cutter.cuts(b, nodes) for b in places.beams}
+        self._whole = cutter.cuts(_everything(structure), nodes)
         self.grids = np.unique([*grids, *places.grids]).astype(np.int64)
         self._operators = [
             *(cuts.of_acceleration for cuts in self.cuts.values()),

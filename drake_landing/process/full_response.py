@@ -14,6 +14,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.case_places import places_of
+from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.slices import (
     Balanced,
@@ -151,17 +152,20 @@ def _watch(
     steady: Float64 | None,
 ) -> PartsWatch:
     """What is looked at in the transient."""
-    structure = airframe.structure
+    cutter = Cutter(airframe.structure)
+    elements = inventory(airframe.structure, case.parts.allowables)
     return PartsWatch(
-        structure,
+        cutter,
         places_of(
-            structure,
+            cutter,
             case.parts,
             rotation_AB(case.airframe.axes),
             aircraft.monitoring,
-            aircraft.known_places(structure),
+            aircraft.known_places(airframe.structure),
+            elements,
+            loads.node_id.tolist(),
         ),
-        inventory(structure, case.parts.allowables),
+        elements,
         list(aircraft.monitoring.values()),
         loads.node_id,
         averaged=case.transient.scheme == "nastran",

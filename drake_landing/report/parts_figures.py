@@ -83,7 +83,7 @@ def section_envelopes(
             label, then = f"at {time[instant]:.3f} s", factor * values[instant]
             curve(axes, beam.stations, then, INK, label, dashed=True)
             name = f"{beam.name}: {quantity}"
-            finish(axes, name, unit, x=f"station {along(cuts)}, m")
+            finish(axes, name, unit, x=f"cut at {beam.axis}, m")
         legend(figure, grid[0][0])
         return svg(figure, f"section loads along the {beam.name}")
 
@@ -94,7 +94,7 @@ def root_histories(
     """Section loads over time at one cut, with those of the other practices."""
     name = cuts.beam.name
     at = found.looked_at[name]
-    where = f"{along(cuts)} = {cuts.beam.stations[at]:.2f} m"
+    where = f"{cuts.beam.axis} = {cuts.beam.stations[at]:z.2f} m"
     cases = list(zip((HYBRID, RIGID), found.cases))
     roots = [
         _without_rounding(cuts.named(case.sections[name][:, at])) for _, case in cases
@@ -122,11 +122,6 @@ def root_histories(
             axes.set_xlim(found.time[0], found.time[-1])
         legend(figure, grid[0][0])
         return svg(figure, f"section loads over time, {name}")
-
-
-def along(cuts: BeamCuts) -> str:
-    """Axis along which the cuts lie."""
-    return "x" if cuts.beam.outward in ("aft", "fore") else "y"
 
 
 def _without_rounding(named: Float64) -> Float64:

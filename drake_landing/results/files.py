@@ -7,7 +7,9 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
                         kinds: attachment, tyre, strut, monitoring, motion, energy
     /multibody/modal_amplitudes (t, n); /multibody/bodies/<name> (t, 7) pose in W
     /fe/monitoring/<point>   as above, direct transient
-    /parts/sections/<beam>   station, point (A, m), value (t, n, 6): section loads, A
+    /parts/sections/<beam>   station (m, along `axis`), point (n, 3) that moments refer
+                        to (m), value (t, n, 6): section loads; attributes outward,
+                        axis, and the directions (3,) of shear, bending and torsion; B
     /parts/acceleration/<grid>   (t, 3), B; /parts/time
     /parts/stress       id, equivalent, time, largest, smallest of each element
     /airframe           frequency_hz, mass, cg, node_id
@@ -25,7 +27,7 @@ import pandas as pd
 from drake_landing.files import versions, write_csv
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import UNITS, LandingHistory
-from drake_landing.parts.cuts import COMPONENTS
+from drake_landing.parts.cuts import COMPONENTS, NAMED
 from fem.files.aside import write_aside
 from fem.recovery.envelope import Envelope
 from systems.airframe.modal_body import ModalBody
@@ -149,7 +151,11 @@ def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
         at["station"], at["point"] = cuts.beam.stations, cuts.point
         at["value"] = parts.landing.sections[name]
         at["value"].attrs["columns"] = list(COMPONENTS)
-        at.attrs["outward"] = cuts.beam.outward
+        at["value"].attrs["units"] = ["N"] * 3 + ["N m"] * 3
+        beam = cuts.beam
+        at.attrs["outward"], at.attrs["axis"] = beam.outward, beam.axis
+        for quantity, axis in zip(NAMED, (beam.lift, beam.across, beam.direction)):
+            at.attrs[quantity] = axis
     for grid, values in parts.landing.acceleration.items():
         group[f"acceleration/{grid}"] = values
     stress = group.create_group("stress")

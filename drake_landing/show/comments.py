@@ -24,6 +24,18 @@ _PATRAN = re.compile(
 )
 _CARD = re.compile(r"^(P[A-Z0-9]+)\*?[\s,]+(\d+)")
 _MOST_PROPERTIES = 24
+# What elements are called that nothing in the deck names.
+KINDS = {
+    "CBAR": "bars",
+    "CBEAM": "beams",
+    "CROD": "rods",
+    "CONROD": "rods",
+    "CTUBE": "tubes",
+    "CQUAD4": "sheets",
+    "CTRIA3": "sheets",
+    "CSHEAR": "shear panels",
+    **dict.fromkeys(("CHEXA", "CPENTA", "CTETRA", "CPYRAM"), "solids"),
+}
 
 
 @dataclass(frozen=True, kw_only=True)

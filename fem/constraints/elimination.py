@@ -146,6 +146,27 @@ def eliminate(
     """
     problems: list[str] = []
     equations: list[Equations] = []
+    try:
+        equations = constraint_equations(deck, points, mpc)
+    except InputError as error:
+        problems += error.problems
+    try:
+        fixed = read_spc(deck, points, spc)
+    except InputError as error:
+        raise InputError([*problems, *error.problems]) from None
+    if problems:
+        raise InputError(problems)
+    return eliminate_equations(points, concatenate(equations), fixed)
+
+
+def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equations]:
+    """Equations of all rigid elements and of the MPC set `mpc`, as the cards give them.
+
+    Raises:
+        InputError: bad references, all of them.
+    """
+    problems: list[str] = []
+    equations: list[Equations] = []
     for read in (
         lambda: read_rbe2(deck, points),
         lambda: read_rbar(deck, points),
@@ -156,13 +177,9 @@ def eliminate(
             equations += read()
         except InputError as error:
             problems += error.problems
-    try:
-        fixed = read_spc(deck, points, spc)
-    except InputError as error:
-        raise InputError([*problems, *error.problems]) from None
     if problems:
         raise InputError(problems)
-    return eliminate_equations(points, concatenate(equations), fixed)
+    return equations
 
 
 def eliminate_equations(

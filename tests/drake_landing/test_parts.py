@@ -8,8 +8,7 @@ import pytest
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.reading import parse_case
 from drake_landing.landing.handover import AttachmentLoads
-from drake_landing.parts.case_places import across
-from drake_landing.parts.cuts import ANY, Beam, beam_cuts, mean_of_three
+from drake_landing.parts.cuts import ANY, Beam, Cutter, mean_of_three
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.places import Places
 from drake_landing.parts.slices import (
@@ -38,6 +37,9 @@ WING = Beam(
     stations=np.array([0.5, 2.5]),
     boxes=(((0.0, 12.0), ANY, ANY),),
     line=np.array([[8.0, 0.0, 0.0], [8.0, 10.0, 0.0]]),
+)
+AFT = Beam(
+    name="all behind the cut", outward="aft", stations=np.array([4.0, 6.5, 9.0])
 )
 GEARS = {"nose": [51], "left": [52], "right": [53]}
 
@@ -73,9 +75,9 @@ def strained() -> list[Observation]:
 @pytest.fixture(scope="module")
 def watch(structure: Structure, aircraft: Aircraft, loads, strained) -> PartsWatch:
     """Ran with two load cases, the second half of the first."""
-    places = Places(beams=(WING, *across(structure, np.eye(3))), equipment={})
+    places = Places(beams=(WING, AFT), equipment={})
     seen = PartsWatch(
-        structure,
+        Cutter(structure),
         places,
         inventory(structure, {1: 1e8}),
         list(aircraft.monitoring.values()),
@@ -124,7 +126,7 @@ def test_stresses_upon_steady_flight_add_up(
     still = balanced(structure, slice_loads(structure, loads, {100: "peak"}))
     steady = still.displacement[:, 0]
     seen = PartsWatch(
-        structure,
+        Cutter(structure),
         Places(equipment={}),
         inventory(structure, {}),
         [1],
@@ -183,7 +185,7 @@ def test_running_sums_equal_the_sum_of_what_lies_beyond(
         boxes=WING.boxes,
         line=WING.line,
     )
-    alone = beam_cuts(structure, outer, {})
+    alone = Cutter(structure).cuts(outer, [])
     both = found.cuts["wing"]
     # Inertia of the outer strip, whose moment refers to the same point.
     inertia = both.of_acceleration[6:]
@@ -196,18 +198,15 @@ def test_both_sides_of_a_cut_feel_opposite_loads(
     structure: Structure, loads: AttachmentLoads, watch: PartsWatch, found: PartsFound
 ) -> None:
     aft = found.cuts["all behind the cut"]
-    station = aft.beam.stations[5]
+    station = aft.beam.stations[1]
     fore = Beam(
-        name="fore", outward="fore", stations=np.array([station]), line=aft.point[5:6]
+        name="fore", outward="fore", stations=np.array([station]), line=aft.point[1:2]
     )
-    place = {
-        int(n): structure.points.xyz[structure.points.rows(n)] for n in [51, 52, 53]
-    }
-    cuts = beam_cuts(structure, fore, place)
+    cuts = Cutter(structure).cuts(fore, [51, 52, 53])
     moved = Observation("acceleration", cuts.of_acceleration)
     transient_response(structure, loads, {"centre": 1}, observers=[moved])
     ahead = cuts.loads(moved.history, loads.node_id, mean_of_three(loads.load))[:, 0]
-    behind = found.landing.sections["all behind the cut"][:, 5]
+    behind = found.landing.sections["all behind the cut"][:, 1]
     size = np.abs(behind).max(axis=0)
     assert np.abs(ahead + behind).max() < 1e-6 * size.max()
 
@@ -303,7 +302,7 @@ def test_static_sections_are_what_the_bars_carry(
 def test_a_beam_without_grids_is_refused(structure: Structure) -> None:
     nowhere = Beam(name="nowhere", outward="port", stations=np.array([-99.0]))
     with pytest.raises(ValueError, match="nowhere"):
-        beam_cuts(structure, nowhere, {})
+        Cutter(structure).cuts(nowhere, [])
 
 
 PLATE = """SOL 101

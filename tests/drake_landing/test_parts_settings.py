@@ -8,6 +8,7 @@ import pytest
 from drake_landing.case.parts import Parts
 from drake_landing.case.reading import parse_case
 from drake_landing.parts.case_places import places_of
+from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.slices import balanced
 from drake_landing.reference.d150 import write_model
@@ -36,35 +37,50 @@ def structure() -> Structure:
 
 
 def found(structure: Structure, parts: Parts):
-    return places_of(structure, parts, np.eye(3), {"tail": 9}, None)
+    return placed(structure, parts, np.eye(3), {"tail": 9}, None)
+
+
+def placed(structure: Structure, parts: Parts, R_AB, monitoring, known):
+    elements = inventory(structure, {})
+    return places_of(
+        Cutter(structure), parts, R_AB, monitoring, known, elements, [51, 52, 53]
+    )
 
 
 def test_a_case_names_its_places(structure: Structure) -> None:
     case = parse_case(TEXT + PARTS, folder=HERE)
     places = found(structure, case.parts)
-    (beam,) = places.beams
-    assert beam.stations.tolist() == [-1.0, -3.0, -5.0, -7.0]
-    assert beam.across.tolist() == [-1.0, 0.0, 0.0]
+    wing, tail = places.beams
+    assert [wing.name, tail.name] == [
+        *("left wing: CBAR property 2, port", "left wing: CBAR property 3, port")
+    ]
+    assert wing.stations.tolist() == [-1.0, -3.0, -5.0, -7.0]
+    assert tail.stations.tolist() == [-1.0]
+    assert wing.across.tolist() == [-1.0, 0.0, 0.0]
     assert places.panels[0].beside == (4, 6)
     assert dict(places.equipment) == {"seat": 3}
     allowed = inventory(structure, case.parts.allowables).elements.allowed
     assert set(allowed) == {2e8}
 
 
-def test_without_words_everything_is_cut(structure: Structure) -> None:
+def test_without_words_every_part_is_cut(structure: Structure) -> None:
     places = found(structure, Parts())
-    assert [b.outward for b in places.beams] == ["starboard", "port", "aft"]
+    assert [b.outward for b in places.beams] == [
+        *("starboard", "starboard", "port", "port", "fore", "aft", "up")
+    ]
     assert dict(places.equipment) == {"tail": 9}
     assert inventory(structure, {}).elements.allowed.isna().all()
 
 
 def test_cuts_follow_the_axes_of_the_deck(structure: Structure) -> None:
     R_AB = np.array([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
-    places = places_of(structure, Parts(), R_AB, {"tail": 9}, None)
-    aft = places.beams[-1]
-    p = structure.points.xyz @ R_AB.T
-    assert aft.stations.min() > p[:, 0].min()
-    assert aft.stations.max() < p[:, 0].max()
+    places = placed(structure, Parts(), R_AB, {"tail": 9}, None)
+    aft = next(b for b in places.beams if b.outward == "aft")
+    assert aft.axis == "x" and aft.direction.tolist() == [-1.0, 0.0, 0.0]
+    assert structure.weight.center[0] > aft.stations[0] > aft.stations[-1] > 0.0
+    beam = {"name": "w", "outward": "port", "first": -1.0, "last": -7.0}
+    with pytest.raises(InputError, match=r"toward y in the deck's axes"):
+        placed(structure, Parts(beams=[beam]), R_AB, {"tail": 9}, None)
 
 
 def test_places_that_are_not_there_are_named(structure: Structure) -> None:
@@ -76,8 +92,7 @@ def test_places_that_are_not_there_are_named(structure: Structure) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
-        ("last: -7.0", "last: 7.0", "must lie port of the first"),
-        ("outward: port", "outward: up", "outward"),
+        ("outward: port", "outward: left", "outward"),
         ("ultimate_factor: 1.25", "ultimate_factor: 0", "ultimate_factor"),
         ("beside: [4, 6]", "beside: []", "beside"),
         ("equipment:", "equipement:", "equipment"),
@@ -92,7 +107,8 @@ def test_wrong_places_are_refused(old: str, new: str, said: str) -> None:
 def test_steady_flight_of_the_reference_aircraft_is_balanced(tmp_path: Path) -> None:
     write_model("con", tmp_path / "con.bdf")
     model = Structure.from_deck(read_deck(tmp_path / "con.bdf"))
-    places = places_of(model, Parts(), np.eye(3), {}, reference_places(model, "con"))
+    known = reference_places(model, "con")
+    places = placed(model, Parts(), np.eye(3), {}, known)
     assert [b.name for b in places.beams] == [
         *("right wing", "left wing", "forward fuselage", "rear fuselage"),
     ]
