@@ -173,9 +173,7 @@ def _cut(cutter: Cutter, beam: Beam, k: int) -> Crossing:
     return crossing(cutter.links, cutter.elements, beyond, d, along)
 
 
-def _beam(
-    cutter: Cutter, branch: Branch, R_AB: Float64
-) -> Beam | None:
+def _beam(cutter: Cutter, branch: Branch, R_AB: Float64) -> Beam | None:
     """Cuts of a part; None where no element that deforms holds it."""
     length = branch.reach - branch.root
     beam = Beam(

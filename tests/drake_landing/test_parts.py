@@ -38,9 +38,7 @@ WING = Beam(
     boxes=(((0.0, 12.0), ANY, ANY),),
     line=np.array([[8.0, 0.0, 0.0], [8.0, 10.0, 0.0]]),
 )
-AFT = Beam(
-    name="all behind the cut", outward="aft", stations=np.array([4.0, 6.5, 9.0])
-)
+AFT = Beam(name="all behind the cut", outward="aft", stations=np.array([4.0, 6.5, 9.0]))
 GEARS = {"nose": [51], "left": [52], "right": [53]}
 
 

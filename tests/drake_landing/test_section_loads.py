@@ -7,6 +7,7 @@ hangs on an RBE2.
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -19,7 +20,7 @@ from drake_landing.parts.slices import balanced
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 from fem.recovery.elements import element_tables
-from fem.recovery.grid_forces import grid_balance, grids_of
+from fem.recovery.grid_forces import grid_balance
 
 # Columns: aft, starboard, up in the axes of the deck.
 FRAMES = {
@@ -73,7 +74,7 @@ def airframe(R_BA: np.ndarray) -> str:
     w.lines += ["$-----------------", "$ fuselage", "$-----------------"]
     stations = [0.0, 3.0, 6.0, 8.0, 9.0, 12.0, 15.0, 18.0]
     nodes = [w.grid(i + 1, x, 0.0, 0.1 * (x > 8.0)) for i, x in enumerate(stations)]
-    for a, b in zip(nodes, nodes[1:]):
+    for a, b in pairwise(nodes):
         w.add("CBAR", 1, a, b)
     for node in nodes:
         w.mass(node, 400.0)
@@ -104,7 +105,7 @@ def wing(w: Writer, side: float, first: int, name: str) -> None:
                 for i, (cx, cz) in enumerate(corners)
             ]
         )
-    for inner, outer in zip(ring, ring[1:]):
+    for inner, outer in pairwise(ring):
         for i in range(4):
             j = (i + 1) % 4
             w.add("CQUAD4", 3, inner[i], inner[j], outer[j], outer[i])
@@ -125,7 +126,7 @@ def wing(w: Writer, side: float, first: int, name: str) -> None:
     tip = [w.grid(first + 500 + i, 12.5 + 0.3 * i, side * 9.0, 0.7 * i)
            for i in range(4)]  # fmt: skip
     w.lines.append(f"RBE2,{rigid + 2},{tip[0]},123456,{','.join(map(str, ring[-1]))}")
-    for a, b in zip(tip, tip[1:]):
+    for a, b in pairwise(tip):
         w.add("CBAR", 2, a, b)
         w.mass(b, 5.0)
 
@@ -227,7 +228,9 @@ def test_cut_elements_carry_the_section_load(loaded: Loaded, part: str) -> None:
         crossing = outer[at] & ((element == 0) | np.isin(element, inner_of))
         f = force[crossing]
         arm = s.points.xyz[at[crossing]] - point
-        theirs = -np.array([*f[:, :3].sum(0), *(f[:, 3:] + np.cross(arm, f[:, :3])).sum(0)])
+        theirs = -np.array(
+            [*f[:, :3].sum(0), *(f[:, 3:] + np.cross(arm, f[:, :3])).sum(0)]
+        )
         size = np.abs(ours).max()
         assert np.abs(ours[i] - theirs).max() < 1e-6 * size
     assert np.abs(ours).max() > 10.0
@@ -292,12 +295,14 @@ def test_a_box_is_cut_at_the_middle_of_its_sheets(reference: Loaded) -> None:
     cuts = reference.cuts["wing, starboard"]
     for station, point in zip(cuts.beam.stations, cuts.point):
         k = station - 1.0
-        assert point[0] == pytest.approx(7.5 + 0.5 * k + 0.5 * (2.0 - 0.1 * k), abs=0.02)
+        assert point[0] == pytest.approx(
+            7.5 + 0.5 * k + 0.5 * (2.0 - 0.1 * k), abs=0.02
+        )
         assert point[2] == pytest.approx(0.0, abs=1e-9)
 
 
 def test_cuts_through_rigid_elements_and_planes_of_grids(reference: Loaded) -> None:
-    """A plane through the RBE2, one in the plane of a rib, one along two sides of it."""
+    """Planes through the RBE2, at its end, in the plane of a rib and beyond it."""
     beam = Beam(
         name="root",
         outward="starboard",
