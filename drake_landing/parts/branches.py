@@ -1,11 +1,12 @@
 """Parts of an airframe that nobody has named: what branches off when planes cut it.
 
 Planes march outward from the centre of gravity, aft, fore, to both sides, up and down.
-What lies beyond a plane falls into connected pieces; going inward these grow and merge,
-and the piece that reaches farthest gives its name to both. A piece is a part of its own
-as long as it stands out: at least half as long, beyond the plane, as it is wide, or as
-long as wide if it lies beside the plane of symmetry (a swept wing is no part that points
-aft). The cuts of a part reach from where it begins to stand out to its tip.
+What lies beyond a plane falls into connected pieces; going inward these grow and
+merge, and the piece that reaches farthest gives its name to both. A piece is a part of
+its own as long as it stands out: at least half as long, beyond the plane, as it is
+wide, or as long as wide if it lies beside the plane of symmetry (a swept wing is no
+part that points aft). The cuts of a part reach from where it begins to stand out to
+its tip.
 """
 
 from collections.abc import Sequence
@@ -253,7 +254,7 @@ class _Finder:
         return sorted(found, key=lambda b: -float(self.heavy[b.grids].sum()))
 
     def _root(self, outward: str, tip: int, low: float, high: float) -> float:
-        """Innermost plane between two beyond which the part with this tip stands out."""
+        """Innermost plane between two beyond which the part of a tip stands out."""
         if tip in self._parts(outward, low):
             return low
         for _ in range(_HALVINGS):

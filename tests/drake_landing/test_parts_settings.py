@@ -76,7 +76,8 @@ def test_cuts_follow_the_axes_of_the_deck(structure: Structure) -> None:
     R_AB = np.array([[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0]])
     places = placed(structure, Parts(), R_AB, {"tail": 9}, None)
     aft = next(b for b in places.beams if b.outward == "aft")
-    assert aft.axis == "x" and aft.direction.tolist() == [-1.0, 0.0, 0.0]
+    assert aft.axis == "x"
+    assert aft.direction.tolist() == [-1.0, 0.0, 0.0]
     assert structure.weight.center[0] > aft.stations[0] > aft.stations[-1] > 0.0
     beam = {"name": "w", "outward": "port", "first": -1.0, "last": -7.0}
     with pytest.raises(InputError, match=r"toward y in the deck's axes"):
