@@ -28,10 +28,12 @@ def landing_gears(
 
 def _with(gear: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     """The gear with other values; those of a part are changed one by one."""
-    return gear | {
-        name: (gear[name] | value) if isinstance(gear.get(name), dict) else value
+    both = {
+        name: value
         for name, value in changes.items()
+        if isinstance(value, dict) and isinstance(gear.get(name), dict)
     }
+    return gear | changes | {name: gear[name] | value for name, value in both.items()}
 
 
 def _gear(data: dict[str, Any]) -> TelescopicGear:
