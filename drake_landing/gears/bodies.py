@@ -42,7 +42,12 @@ from drake_landing.gears.data import (
     RigidPart,
     TelescopicGear,
 )
-from drake_landing.gears.leg_hinges import add_leg_hinges, part_inertia
+from drake_landing.gears.leg_hinges import (
+    add_leg_hinges,
+    hinge_lines,
+    last_bending,
+    part_inertia,
+)
 from systems.gear.lever_strut import LeverStrut
 from systems.tools.rotations import exp
 
@@ -109,6 +114,19 @@ def strut_axis(gear: LandingGear) -> Float64:
 def leg_axis(gear: LandingGear) -> Float64:
     """(3,) direction in B about which a leg twists and is steered: upward."""
     return _raked_axis(gear)  # of a levered gear the up axis
+
+
+def leg_lines(gear: LandingGear, p_BA: Float64) -> dict[str, tuple[Float64, Float64]]:
+    """Hinges of an elastic leg: place (3,) (m) and unit vector (3,) of each in B."""
+    return hinge_lines(gear, p_BA, _centre(gear), leg_axis(gear))
+
+
+def cylinder_body(gear: LandingGear, p_BA: Float64) -> tuple[str, Float64]:
+    """The body that what is above the stroke and bends belongs to, its origin in B."""
+    kind = last_bending(gear)
+    if kind is None:
+        return f"{gear.name}_fitting", p_BA
+    return f"{gear.name}_below_{kind}", leg_lines(gear, p_BA)[kind][0]
 
 
 def steering(gear: LandingGear) -> RotationMatrix:

@@ -71,12 +71,9 @@ def add_leg_hinges(
         axis: (3,) in B, of the strut, up.
     """
     body, origin, hinges = fitting, p_BA, {}
-    kinds = elastic_kinds(gear.leg)
-    last_bending = next((k for k in reversed(kinds) if k != "torsion"), None)
-    for kind in kinds:
-        place = _root(gear, kind, p_BA, centre, axis)
+    for kind, (place, about) in hinge_lines(gear, p_BA, centre, axis).items():
         inertia = SpatialInertia.Zero()
-        if gear.cylinder is not None and kind == last_bending:
+        if gear.cylinder is not None and kind == last_bending(gear):
             inertia = part_inertia(gear.cylinder, place)
         lower = plant.AddRigidBody(f"{gear.name}_below_{kind}", inertia)
         X = RigidTransform(place - origin)
@@ -85,11 +82,27 @@ def add_leg_hinges(
             f"{gear.name}_{kind}",
             plant.AddFrame(frame),
             lower.body_frame(),
-            hinge_axis(kind, axis),
+            about,
         )
         hinges[kind] = cast(RevoluteJoint, plant.AddJoint(joint))
         body, origin = lower, place
     return LegHinges(body, origin, hinges)
+
+
+def hinge_lines(
+    gear: LandingGear, p_BA: Float64, centre: Float64, axis: Float64
+) -> dict[str, tuple[Float64, Float64]]:
+    """Hinges of a gear's leg: place (3,) and unit vector (3,) in B; see above."""
+    return {
+        kind: (_root(gear, kind, p_BA, centre, axis), hinge_axis(kind, axis))
+        for kind in elastic_kinds(gear.leg)
+    }
+
+
+def last_bending(gear: LandingGear) -> str | None:
+    """The hinge below which the cylinder hangs; None where no bending is elastic."""
+    kinds = [kind for kind in elastic_kinds(gear.leg) if kind != "torsion"]
+    return kinds[-1] if kinds else None
 
 
 def part_inertia(part: RigidPart, p_BO: Float64) -> SpatialInertia:

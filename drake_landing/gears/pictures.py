@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.gears.bodies import steering, strut_axis
+from drake_landing.gears.bodies import cylinder_body, steering, strut_axis
 from drake_landing.gears.data import BogieGear, LandingGear, LeveredGear
 
 Float64 = npt.NDArray[np.float64]
@@ -60,15 +60,15 @@ def rods(gear: LandingGear, p_AF: npt.ArrayLike) -> list[Rod]:
 
 
 def _strut(gear: LandingGear, attachment: Float64, lower: Float64) -> list[Rod]:
-    """Fitting, cylinder and piston above a point on the strut axis."""
+    """Fitting, cylinder and piston above a point on the strut axis; legs bend."""
     up = strut_axis(gear)
     reach = float((attachment - lower) @ up)
     top, mouth = lower + reach * up, lower + 0.45 * reach * up
     fitting, piston = f"{gear.name}_fitting", f"{gear.name}_piston"
-    top, mouth = top - attachment, mouth - attachment
+    cylinder, root = cylinder_body(gear, attachment)
     return [
-        Rod(body=fitting, start=np.zeros(3), end=top, thickness=0.7),
-        Rod(body=fitting, start=top, end=mouth, thickness=1.0),
+        Rod(body=fitting, start=np.zeros(3), end=top - attachment, thickness=0.7),
+        Rod(body=cylinder, start=top - root, end=mouth - root, thickness=1.0),
         Rod(
             body=piston,
             start=np.zeros(3),
@@ -80,14 +80,15 @@ def _strut(gear: LandingGear, attachment: Float64, lower: Float64) -> list[Rod]:
 
 
 def _levered(gear: LeveredGear, attachment: Float64) -> list[Rod]:
-    fitting, arm = f"{gear.name}_fitting", f"{gear.name}_arm"
+    leg, root = cylinder_body(gear, attachment)
+    arm = f"{gear.name}_arm"
     pivot, axle = np.array(gear.pivot), np.array(gear.axle)
     upper, lower = np.array(gear.absorber_upper), np.array(gear.absorber_lower)
     turned = pivot + steering(gear).matrix() @ (upper - pivot)
     zero = np.zeros(3)
     return [
-        Rod(body=fitting, start=zero, end=pivot - attachment, thickness=1.0),
-        Rod(body=fitting, start=zero, end=turned - attachment, thickness=0.6),
+        Rod(body=leg, start=attachment - root, end=pivot - root, thickness=1.0),
+        Rod(body=leg, start=attachment - root, end=turned - root, thickness=0.6),
         Rod(body=arm, start=zero, end=axle - pivot, thickness=0.9),
         Rod(
             body=arm,

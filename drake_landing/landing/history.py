@@ -18,6 +18,7 @@ Float64 = npt.NDArray[np.float64]
 
 ATTACHMENT = ("fx", "fy", "fz", "mx", "my", "mz")
 TYRE = ("deflection", "vertical", "drag", "side", "slip", "slip_angle", "spin")
+BENDING = ("fore_aft", "lateral", "torsion")
 STRUT = ("stroke", "rate", "force")
 POINT = ("x", "y", "z")
 
@@ -25,6 +26,7 @@ UNITS = {
     **dict.fromkeys(("fx", "fy", "fz", "vertical", "drag", "side", "force"), "N"),
     **dict.fromkeys(("mx", "my", "mz"), "N m"),
     **dict.fromkeys(("deflection", "stroke"), "m"),
+    **dict.fromkeys(BENDING, "rad"),
     **{"rate": "m/s", "slip": "1", "slip_angle": "rad", "spin": "rad/s"},
     **dict.fromkeys(POINT, "m/s²"),
 }
@@ -41,6 +43,8 @@ class LandingHistory:
         attachment: attachment -> table with columns `ATTACHMENT`.
         tyre: wheel name -> table with columns `TYRE`.
         strut: gear name -> table with columns `STRUT`.
+        bending: gear with an elastic leg -> table with columns `BENDING`: angles about
+            the root, lower end aft, to starboard, and about the strut axis up > 0.
         monitoring: point name -> acceleration, columns `POINT`, in B.
         motion: columns qw qx qy qz px py pz: R_WA and p_WG (m) of the airframe.
         bodies: body of the gears -> (t, 7) quaternion and position (m) in W.
@@ -62,6 +66,7 @@ class LandingHistory:
     bodies: dict[str, Float64]
     amplitudes: Float64
     energy: pd.DataFrame
+    bending: dict[str, pd.DataFrame] = field(default_factory=dict)
     lift_change: dict[int, Float64] = field(default_factory=dict)
     figures: dict[str, float] = field(default_factory=dict)
 

@@ -18,7 +18,14 @@ from drake_landing.case.schema import Scenario, Simulation
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import distinct_instants
-from drake_landing.landing.history import ATTACHMENT, POINT, STRUT, TYRE, LandingHistory
+from drake_landing.landing.history import (
+    ATTACHMENT,
+    BENDING,
+    POINT,
+    STRUT,
+    TYRE,
+    LandingHistory,
+)
 from drake_landing.landing.start import (
     make_scenario_diagram,
     reference_energy,
@@ -231,6 +238,11 @@ def _history(
             )
             for gear in landing.gears
         },
+        bending={
+            name: table(signal(f"elastic_legs.deflection_{name}"), BENDING)
+            for name, bodies in landing.bodies.items()
+            if bodies.hinges
+        },
         monitoring={
             point: table(points[:, i, 0] @ R_AB, POINT)
             for i, point in enumerate(monitoring)
@@ -262,7 +274,12 @@ def _body_poses(landing: LandingDiagram, states: Float64) -> dict[str, Float64]:
     bodies = [
         body
         for gear in landing.bodies.values()
-        for body in (gear.fitting, *gear.parts.values(), *gear.wheels.values())
+        for body in (
+            gear.fitting,
+            *(hinge.child_body() for hinge in gear.hinges.values()),
+            *gear.parts.values(),
+            *gear.wheels.values(),
+        )
     ]
     found = {body.name(): np.empty((len(states), 7)) for body in bodies}
     for i, state in enumerate(states):
@@ -305,6 +322,8 @@ def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:
         parts["pitch dampers"] = stored(
             [f"pitch_damper_{gear}" for gear in landing.pitch_dampers]
         )
+    if landing.elastic_legs is not None:
+        parts["legs"] = stored(["elastic_legs"])
     if landing.lift is not None:
         parts["taken by the lift"] = -signal("energy_budget.supplied")[:, 0]
     parts["dissipated"] = signal("energy_budget.dissipated")[:, 0]

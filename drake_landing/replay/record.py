@@ -7,6 +7,7 @@ things but not bend them. Gears follow the attachment nodes. What is drawn is in
 """
 
 import logging
+from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -14,12 +15,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
+import pandas as pd
 from pydrake.common.eigen_geometry import Quaternion
 from pydrake.geometry import Meshcat, MeshcatAnimation, MeshcatParams
 from pydrake.math import RigidTransform, RotationMatrix
 
 from drake_landing.airframe.skeleton import Skeleton
 from drake_landing.case.axes import gear_in_A, rotation_AB
+from drake_landing.gears.bodies import leg_lines
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.pictures import rods
 from drake_landing.replay.scene import (
@@ -205,16 +208,52 @@ def _gear(
         if name.startswith(f"{gear.name}_")
     }
     seen: dict[str, list[RigidTransform]] = {name: [] for name in poses}
+    p_AF = body.p_BN[row]
+    more = enlarged_bending(
+        history.bending.get(gear.name), leg_lines(gear, p_AF), p_AF, motion.time, factor
+    )
     for i, amplitudes in enumerate(motion.amplitudes):
         bend = factor * (body.translation[row] @ amplitudes)
         turn = exp(factor * (body.rotation[row] @ amplitudes)[None])[0]
         p = motion.p[i] + motion.R[i] @ (body.p_BN[row] - body.p_BG + bend)
         R = RotationMatrix.ProjectToRotationMatrix(motion.R[i] @ turn)
-        shift = RigidTransform(R, p) @ poses[f"{gear.name}_fitting"][i].inverse()
+        from_fitting = poses[f"{gear.name}_fitting"][i].inverse()
         for name in poses:
-            seen[name].append(shift @ poses[name][i])
+            bent = RigidTransform() if name == f"{gear.name}_fitting" else more[i]
+            seen[name].append(
+                RigidTransform(R, p) @ bent @ from_fitting @ poses[name][i]
+            )
             animation.SetTransform(i, f"/gears/{name}", seen[name][i])
     return seen
+
+
+def enlarged_bending(
+    bending: pd.DataFrame | None,
+    lines: Mapping[str, tuple[Float64, Float64]],
+    p_AF: Float64,
+    time: Float64,
+    factor: float,
+) -> list[RigidTransform]:
+    """What an elastic leg's deflection lacks to be enlarged, in the fitting's frame.
+
+    Args:
+        bending: angles over time, rad; None of a rigid leg.
+        lines: place and axis of each hinge in A, see `bodies.leg_lines`.
+        p_AF: (3,) origin of the fitting in A, m.
+        time: (f,) of the frames, s.
+        factor: of the enlargement.
+    """
+    turns = [RigidTransform()] * len(time)
+    if bending is None:
+        return turns
+    for kind, (place, axis) in lines.items():
+        about = RigidTransform(place - p_AF)
+        for i, angle in enumerate(np.interp(time, bending.index, bending[kind])):
+            more = exp((factor - 1.0) * angle * axis[None])[0]
+            R = RotationMatrix.ProjectToRotationMatrix(more)
+            turn = RigidTransform(R, np.zeros(3))
+            turns[i] = turns[i] @ about @ turn @ about.inverse()
+    return turns
 
 
 def _load(

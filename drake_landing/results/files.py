@@ -4,7 +4,8 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
 
     /attachment_loads   time, node_id, load (t, k, 6) as given to the full model, basic
     /multibody/<kind>/<name>   time and value (t, c) with attributes columns, units;
-                        kinds: attachment, tyre, strut, monitoring, motion, energy
+                        kinds: attachment, tyre, strut, bending (elastic legs),
+                        monitoring, motion, energy
     /multibody/modal_amplitudes (t, n); /multibody/bodies/<name> (t, 7) pose in W
     /fe/monitoring/<point>   as above, direct transient
     /parts/sections/<beam>   station (m, along `axis`), point (n, 3) that moments refer
@@ -120,6 +121,7 @@ def _write_history(group: h5py.Group, history: LandingHistory) -> None:
         "attachment": history.attachment,
         "tyre": history.tyre,
         "strut": history.strut,
+        "bending": history.bending,
         "monitoring": history.monitoring,
     }
     for kind, tables in kinds.items():
