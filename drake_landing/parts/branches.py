@@ -232,7 +232,7 @@ class _Finder:
         d = outward_axis(outward, self.R_AB)
         structure = self.cutter.structure
         s = structure.points.xyz @ d
-        start, end = float(structure.weight.center @ d), float(s.max())
+        start, end = float(structure.rigid_mass.center @ d), float(s.max())
         if end - start <= self.cutter.tolerance:
             return []
         planes = start + (end - start) * (np.arange(_PLANES) + 0.5) / _PLANES
@@ -298,7 +298,7 @@ class _Finder:
         size = np.ptp(wide, axis=0) if len(wide) else np.zeros(3)
         width = float(size[np.abs(d) < 0.5].max())
         y = p @ self.R_AB[1]
-        middle = float(self.cutter.structure.weight.center @ self.R_AB[1])
+        middle = float(self.cutter.structure.rigid_mass.center @ self.R_AB[1])
         beside = y.min() > middle or y.max() < middle
         lateral = abs(float(d @ self.R_AB[1])) > 0.5
         return length >= (_BESIDE if beside and not lateral else _CENTRED) * width

@@ -85,7 +85,7 @@ class FreeSet:
 
         Motions that constraints prevent cost energy; `normal_modes` sorts them out.
         """
-        motions = rigid_modes(self.model.points, self.model.weight.center)
+        motions = rigid_modes(self.model.points, self.model.rigid_mass.center)
         return motions[self.support.elimination.f]
 
     @cached_property

@@ -112,7 +112,10 @@ class Model:
 
     @cached_property
     def weight(self) -> Weight:
-        """Mass, centre of gravity and inertia (PARAM GRDPNT: reference grid)."""
+        """Nastran's weight table (PARAM GRDPNT: reference grid), without PARAM WTMASS.
+
+        In the units that the deck gives masses or weights in; see `rigid_mass`.
+        """
         grid = int(self.deck.number("GRDPNT"))
         reference = self.points.xyz[self.points.rows(grid)] if grid > 0 else np.zeros(3)
         return weigh(
@@ -121,6 +124,15 @@ class Model:
             reference=reference,
             wtmass=self.deck.number("WTMASS") or 1.0,  # 0 leaves no mass to divide
         )
+
+    @cached_property
+    def rigid_mass(self) -> Weight:
+        """Mass, centre of gravity and inertia that the dynamics have.
+
+        As `weight`, but about the origin and with PARAM WTMASS in it: what a deck that
+        gives weights moves like.
+        """
+        return weigh(self.points, self.matrices.mass)
 
     @cached_property
     def quality(self) -> pd.DataFrame:

@@ -105,8 +105,13 @@ class Structure:
 
     @property
     def weight(self) -> Weight:
-        """Mass, centre of gravity and inertia, see `Model`."""
+        """Nastran's weight table, see `Model`."""
         return self.model.weight
+
+    @property
+    def rigid_mass(self) -> Weight:
+        """Mass, centre of gravity and inertia that the dynamics have, see `Model`."""
+        return self.model.rigid_mass
 
     @property
     def analysis_dof(self) -> Int64:
