@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.axes import gear_in_A
-from drake_landing.gears.bodies import mass_points, wheel_centres
+from drake_landing.gears.bodies import mass_points, tip_below_root, wheel_centres
 from drake_landing.gears.data import LandingGear, LeveredGear
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
 from drake_landing.landing.lift import STANDARD_GRAVITY
@@ -75,6 +75,8 @@ def gear_problems(
         points |= {
             name: np.atleast_2d(getattr(gear, name))[0] for name in gear.positions
         }
+        if gear.leg is not None and gear.leg.root is not None:
+            points["leg.root"] = np.array(gear.leg.root)
         for name, p in points.items():
             away = float(np.linalg.norm(p - node))
             if away > _REACH:
@@ -89,6 +91,12 @@ def gear_problems(
             problems.append(
                 f"gears.{gear.name}.{field}: found an axle {height:.4g} m above the "
                 f"attachment node {gear.attachment_node}, expected it below"
+            )
+        below = tip_below_root(gear, node)
+        if below is not None and below <= 0.0 <= -height:
+            problems.append(
+                f"gears.{gear.name}.leg.root: found a point {-below:.4g} m below the "
+                "axle, expected it above, where the leg is clamped"
             )
     return problems
 

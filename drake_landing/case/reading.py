@@ -20,6 +20,8 @@ from fem.errors import InputError, nearest
 
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
+_FIELD = re.compile(r"([a-z]\w*(?:\.\w+)*): ")
+
 Loc = tuple[int | str, ...]
 
 
@@ -133,6 +135,11 @@ def _problem(
     text = _explain(error, models, field, loc)
     if not path:  # of the whole case: the text itself names the field
         return places.line(text.partition(":")[0]), text
+    field_of_text = _FIELD.match(text)
+    if field_of_text and f"{path}.{field_of_text[1]}" in places.lines:
+        # Of a mapping, but the text names the field in it.
+        where = f"{path}.{field_of_text[1]}"
+        return places.line(where), f"{'.'.join(_by_name(loc, data))}.{text}"
     return places.line(path), f"{'.'.join(_by_name(loc, data))}: {text}"
 
 

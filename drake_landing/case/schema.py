@@ -23,6 +23,7 @@ from pydantic import (
     model_validator,
 )
 
+from drake_landing.case.bushing import Bushing
 from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
@@ -321,6 +322,11 @@ class Case(Section):
         description="list of landing gears, or d150: those of the reference aircraft; "
         "d150-paper: the same with the simpler laws of the paper's studies",
     )
+    bushing: Bushing | None = Field(
+        default=None,
+        description="elastic fittings between gears and airframe; default none: held "
+        "without play",
+    )
     scenario: Scenario
     simulation: Simulation = Simulation()
     transient: Transient = Transient()
@@ -337,6 +343,15 @@ class Case(Section):
         case = self.model_copy()
         case._places = places
         return case
+
+    @model_validator(mode="after")
+    def _bushing_in_flight(self) -> Self:
+        if self.bushing and self.scenario.gravity:
+            raise ValueError(
+                "bushing: found one where gravity acts, expected lift: equal: states "
+                "of rest are found with gears that are held without play"
+            )
+        return self
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

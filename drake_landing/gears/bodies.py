@@ -121,6 +121,17 @@ def leg_lines(gear: LandingGear, p_BA: Float64) -> dict[str, tuple[Float64, Floa
     return hinge_lines(gear, p_BA, _centre(gear), leg_axis(gear))
 
 
+def tip_below_root(gear: LandingGear, p_BA: Float64) -> float | None:
+    """How far the tip of an elastic leg lies below its lowest root along the strut, m.
+
+    The tip is the axle, of a bogie the pivot; None where nothing bends.
+    """
+    tip = gear.pivot if isinstance(gear, BogieGear) else gear.axles[0]
+    roots = [p for k, (p, _) in leg_lines(gear, p_BA).items() if k != "torsion"]
+    axis = leg_axis(gear)
+    return min((float((p - np.array(tip)) @ axis) for p in roots), default=None)
+
+
 def cylinder_body(gear: LandingGear, p_BA: Float64) -> tuple[str, Float64]:
     """The body that what is above the stroke and bends belongs to, its origin in B."""
     kind = last_bending(gear)

@@ -17,10 +17,10 @@ _HIGHEST = 200.0  # Hz
 
 def _positive(table: list[tuple[float, float]]) -> list[tuple[float, float]]:
     if table[0][0] < 0.0:
-        raise ValueError(f"stroke {table[0][0]:g} m, expected >= 0")
+        raise ValueError(f"found a stroke of {table[0][0]:g} m, expected >= 0")
     for _, y in table:
         if not y > 0.0:
-            raise ValueError(f"{y:g} found, expected > 0")
+            raise ValueError(f"found {y:g}, expected > 0")
     return table
 
 
@@ -34,10 +34,10 @@ class Elastic(Data):
     stiffness: Positive | None = Field(
         default=None,
         description="at the axle (of a bogie: at the pivot of its beam) at every "
-        "stroke, N/m; of the torsion N m/rad; > 0",
+        "stroke, N/m, > 0",
     )
     stiffness_table: OverStroke | None = Field(
-        default=None, description="stroke (m, ascending) against stiffness"
+        default=None, description="stroke (m, ascending) against stiffness, N/m"
     )
     frequency: Frequency | None = Field(
         default=None,
@@ -72,6 +72,17 @@ class Elastic(Data):
 class Torsion(Elastic):
     """Of the torque links, with piston and cylinder, about the strut axis."""
 
+    stiffness: Positive | None = Field(
+        default=None, description="about the strut axis at every stroke, N m/rad, > 0"
+    )
+    stiffness_table: OverStroke | None = Field(
+        default=None, description="stroke (m, ascending) against stiffness, N m/rad"
+    )
+    frequency: Frequency | None = Field(
+        default=None,
+        description=f"of the extended leg, Hz, > 0 and <= {_HIGHEST:g}; the stiffness "
+        "is the same at every stroke",
+    )
     free_play_deg: float = Field(
         default=0.0,
         ge=0,

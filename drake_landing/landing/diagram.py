@@ -10,9 +10,9 @@ Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_f
 `brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>`, `elastic_legs` and `lift`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Any
 
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import Diagram, DiagramBuilder, LeafSystem
@@ -120,7 +120,7 @@ def MakeLandingDiagram(
     runway: Runway | None = None,
     *,
     monitor_nodes: Sequence[int] = (),
-    attachment: Literal["rigid", "bushing"] = "rigid",
+    bushing: Mapping[str, float] | None = None,
     gravity: float = 0.0,
     lift: Lift | None = None,
     brakes: bool = False,
@@ -134,7 +134,8 @@ def MakeLandingDiagram(
         gears: one or more; each is held at its attachment nodes.
         runway: default flat and dry.
         monitor_nodes: grids whose accelerations are wanted.
-        attachment: `rigid`, or `bushing` for elastic fittings.
+        bushing: stiffness and damping of elastic fittings, arguments of
+            BushingAttachment; default none: held without play.
         gravity: m/s², for airframe and gears; 0 stands for lift equal to weight.
         lift: carried by the airframe, beside gravity.
         brakes: applied from the start, on gears that have them; by default none are.
@@ -164,9 +165,13 @@ def MakeLandingDiagram(
         "airframe", FlexibleAirframe(body, nodes, monitor_nodes, gravity)
     )
     points = attachment_points(gears, bodies, places)
-    kind = {"rigid": RigidAttachment, "bushing": BushingAttachment}[attachment]
-    held = builder.AddNamedSystem("attachment", kind(plant, points))
-    if attachment == "rigid":
+    held: Attachment = (
+        RigidAttachment(plant, points)
+        if bushing is None
+        else BushingAttachment(plant, points, **bushing)
+    )
+    builder.AddNamedSystem("attachment", held)
+    if bushing is None:
         require_shared_loads(body, gears, points, nodes)
     parts = AddGearSystems(
         builder, plant, gears, bodies, runway, brakes, connect_plant=False

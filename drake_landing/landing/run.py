@@ -14,6 +14,7 @@ from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorC
 from pydrake.systems.framework import Context, EventStatus
 
 from drake_landing.case.axes import gear_in_A
+from drake_landing.case.bushing import Bushing
 from drake_landing.case.schema import Scenario, Simulation
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.diagram import LandingDiagram
@@ -60,6 +61,7 @@ def build_landing(
     R_AB: Float64,
     scenario: Scenario,
     slow_modes_above: float | None = None,
+    bushing: Bushing | None = None,
 ) -> LandingDiagram:
     """The diagram of an aircraft, for any number of runs.
 
@@ -70,6 +72,7 @@ def build_landing(
         R_AB: (3, 3).
         scenario: its runway, gravity, lift and brakes are part of the diagram.
         slow_modes_above: Hz; see `systems.airframe.slow_modes`.
+        bushing: elastic fittings; default none.
 
     Raises:
         InputError: the gears cannot be built or held as they are described.
@@ -82,6 +85,7 @@ def build_landing(
             [gear_in_A(gear, R_AB) for gear in gears],
             scenario,
             list(monitoring.values()),
+            bushing=bushing and bushing.model_dump(),
         )
     except ValueError as error:
         text = str(error)

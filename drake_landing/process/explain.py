@@ -107,6 +107,7 @@ def _dry_run(case: Case, aircraft: Aircraft, structure: Structure) -> None:
         aircraft.monitoring,
         R_AB,
         aircraft.scenario,
+        bushing=case.bushing,
     )
     context = landing.diagram.CreateDefaultContext()
     start_state(landing, context, aircraft.scenario, case.simulation.clearance)

@@ -167,6 +167,7 @@ def _fly(
         R_AB,
         aircraft.scenario,
         case.simulation.slow_modes_above,
+        case.bushing,
     )
     return fly(landing, aircraft.scenario, case.simulation, points, R_AB, progress)
 

@@ -135,9 +135,85 @@ def test_gear_mistakes_carry_their_path() -> None:
     found = problems(text.replace("stiffness: ", "stifness: ", 1))
     assert any("gears.nose.tyre.stifness" in p and "'stiffness'" in p for p in found)
     found = problems(text.replace("name: nose", "name: nose\n    kind: flying", 1))
-    assert "gears.nose: kind: found 'flying', expected telescopic, levered" in found[0]
+    assert "gears.nose.kind: found 'flying', expected telescopic, levered" in found[0]
     found = problems(text.replace("name: main_right", "name: main_left"))
     assert "name main_left is used more than once" in found[0]
+
+
+_BEAM = "cylinder_bending: 1.0e+6, piston_bending: 1.0e+6, overhang: 0.2"
+
+
+@pytest.mark.parametrize(
+    ("field", "message"),
+    [
+        ("leg: 3", "leg: found 3, expected a mapping"),
+        ("leg: {}", "leg: found nothing that bends, expected fore_aft, lateral"),
+        ("leg: {fore_aft: {}}", "leg.fore_aft: found none, expected one of stiffness"),
+        (
+            "leg: {fore_aft: {frequency: 500}}",
+            "leg.fore_aft.frequency: found 500, expected less than or equal to 200",
+        ),
+        (
+            "leg: {lateral: {stiffness_table: [[0, 1.0e+6], [0.1, -2]]}}",
+            "leg.lateral.stiffness_table: found -2, expected > 0",
+        ),
+        (
+            "leg: {lateral: {frequency_table: [[0, 9], [40, 8]]}}",
+            "leg.lateral.frequency_table: found a stroke of 40 m, expected about 0.22",
+        ),
+        (
+            "leg: {torsion: {frequency: 9, free_play_deg: 20}}",
+            "leg.torsion.free_play_deg: found 20, expected less than or equal to 5",
+        ),
+        (
+            "leg: {fore_aft: {frequncy: 9}}",
+            "leg.fore_aft.frequncy: unknown key; did you mean 'frequency'?",
+        ),
+        (
+            f"leg: {{beam: {{{_BEAM}, cylinder_length: 0.9, bearing_distance: 0.2}}}}",
+            "leg.beam.overhang: found 0.2 m, expected more than the stroke, 0.22 m",
+        ),
+        (
+            "cylinder: {mass: 5, cg: [2, 0, -1], inertia: [3, 3, 1]}",
+            "cylinder: found one on a leg that does not bend, expected its mass in",
+        ),
+    ],
+)
+def test_bad_legs_give_one_message_with_line_field_found_and_expected(
+    field: str, message: str
+) -> None:
+    gears = gears_of_tiny_case()
+    text = edited("model: con", "deck: a.bdf\n  monitoring: {tip: 4}") + gears
+    text = text.replace("    wheel_offsets", f"    {field}\n    wheel_offsets", 1)
+    line = text.split("\n").index(f"    {field}") + 1
+    (problem,) = problems(text)
+    assert problem.startswith(f"c.yaml:{line}: gears.nose.{message}")
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (
+            "{translational_stiffness: -1, rotational_stiffness: 1}",
+            "found -1, expected",
+        ),
+        ("{translational_stiffness: 1}", "rotational_stiffness: missing"),
+        ("true", "found True, expected a mapping"),
+    ],
+)
+def test_bad_bushings_are_named(text: str, message: str) -> None:
+    found = problems(edited("name: small", f"name: small\nbushing: {text}"))
+    assert len(found) == 1
+    assert found[0].startswith("c.yaml:2: bushing")
+    assert message in found[0]
+
+
+def test_bushings_need_a_run_without_gravity() -> None:
+    bushing = "{translational_stiffness: 1.0e+8, rotational_stiffness: 1.0e+8}"
+    text = edited("name: small", f"name: small\nbushing: {bushing}")
+    assert parse_case(text).bushing is not None
+    (problem,) = problems(text.replace("sink_rate: 1.8288", "preset: taxi_bump"))
+    assert problem.startswith("c.yaml:2: bushing: found one where gravity acts")
 
 
 def test_schema_gives_meaning_unit_and_range_of_every_number() -> None:

@@ -98,6 +98,18 @@ def test_axle_above_its_attachment_is_found():
     assert problem.startswith("gears.main_left.axle_positions: ")
 
 
+def test_root_of_a_leg_lies_above_its_axle_and_near():
+    x, y, z = LEFT.axle
+    law = {"frequency": 9.0}
+    for root, message in (
+        ((x, y, z - 0.5), "found a point 0.5 m below the axle, expected it above"),
+        ((x, y, 1e3 * z), "found a point 3715 m away from the attachment node 102"),
+    ):
+        gear = changed(LEFT, leg={"root": root, "fore_aft": law})
+        problem = gear_problems([gear], _places([gear]))[0]
+        assert problem.startswith(f"gears.main_left.leg.root: {message}")
+
+
 @pytest.mark.parametrize(
     ("left", "message"),
     [
