@@ -166,7 +166,10 @@ def _gas_remarks(gear: LandingGear, load: float) -> list[str]:
     parameters = shock_absorber_parameters(gear.shock_absorber)
     below = (gear.mass - gear.sprung_mass) * STANDARD_GRAVITY
     wanted = (load - below) * _strut_share(gear)
-    full = StrutLaw(parameters).gas_force(parameters.max_stroke, parameters.tunables)
+    law, stroke = StrutLaw(parameters), parameters.max_stroke
+    full = law.gas_force(
+        stroke, parameters.tunables, law.settled(stroke, parameters.tunables)
+    )
     preload = parameters.gas.precharge
     at_rest = f"the shock absorber carries {wanted / 1e3:.4g} kN at rest"
     if preload >= wanted:

@@ -10,6 +10,8 @@ from systems.gear.bogie_pitch import BogiePitchParameters
 from systems.gear.brake import AntiSkid, BrakeParameters
 from systems.runway.runway import Runway
 from systems.shock_absorber.gas_spring import GasSpring, SecondChamber
+from systems.shock_absorber.orifice_damper import Metering
+from systems.shock_absorber.orifice_network import OrificeNetwork
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
 from systems.tire.aircraft_tire import (
     SMALL_SLIP_TRAIL,
@@ -19,6 +21,7 @@ from systems.tire.aircraft_tire import (
 from systems.tire.magic_formula import MagicFormula
 from systems.tire.slip import SineSlip, TabulatedSlip
 from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tools.grid import Grid
 from systems.tools.table import Table
 
 
@@ -37,13 +40,20 @@ def shock_absorber_parameters(data: ShockAbsorber) -> ShockAbsorberParameters:
             exponent=second.gas_exponent,
         ),
     )
+    oil = None
+    if data.oil_bulk_modulus and data.oil_volume and data.piston_area:
+        oil = data.oil_bulk_modulus * data.piston_area**2 / data.oil_volume
+    closing, opening = _metering(data)
+    single = data.compression_damping is None
     return ShockAbsorberParameters(
         gas=gas,
         max_stroke=data.stroke,
-        compression_damping=data.compression_damping,
-        rebound_damping=data.rebound_damping,
-        compression_metering=_table(data.compression_metering),
-        rebound_metering=_table(data.rebound_metering),
+        compression_damping=1.0 if single else data.compression_damping or 0.0,
+        rebound_damping=1.0 if single else data.rebound_damping or 0.0,
+        compression_metering=closing,
+        rebound_metering=opening,
+        thermal_time=data.thermal_time,
+        oil_stiffness=oil,
         extension_stop_stiffness=data.extension_stop_stiffness,
         bottoming_stop_stiffness=data.compression_stop_stiffness,
         stop_damping=data.stop_damping,
@@ -52,6 +62,43 @@ def shock_absorber_parameters(data: ShockAbsorber) -> ShockAbsorberParameters:
         axle_arm=data.axle_arm,
         bearing_distance=data.bearing_distance,
     )
+
+
+def _metering(data: ShockAbsorber) -> tuple[Metering, Metering]:
+    """Factors on the damping coefficients; the coefficients themselves where there are
+    orifices or a map.
+    """
+    if data.orifices is not None:
+        areas = data.orifices
+        network = OrificeNetwork(
+            piston_area=areas.piston_area,
+            main=_area(areas.main),
+            density=areas.density,
+            discharge=areas.discharge,
+            relief_pressure=areas.relief_pressure,
+            relief_area=areas.relief_area,
+            relief_band=areas.relief_band,
+            recoil_area=areas.recoil_area,
+            recoil_compression=areas.recoil_compression,
+            recoil_rebound=_area(areas.recoil_rebound),
+        )
+        return network.damping(data.stroke)
+    if data.damping_map is not None:
+        found = data.damping_map
+        closing, opening = (
+            Grid(
+                found.strokes,
+                found.rates,
+                [[f / (v * v) for f, v in zip(row, found.rates)] for row in rows],
+            )
+            for rows in (found.compression, found.rebound)
+        )
+        return closing, opening
+    return _table(data.compression_metering), _table(data.rebound_metering)
+
+
+def _area(value: float | list[tuple[float, float]] | None) -> Any:
+    return _table(value) if isinstance(value, list) else value
 
 
 def tire_parameters(data: Tyre) -> TireParameters:

@@ -188,6 +188,8 @@ class _Rest:
         for joint, value in zip(self._joints, u[at:]):
             _set_position(joint, self._plant, float(value))
         self._landing.attachment.place_fittings(self._context)
+        for absorber in self._landing.shock_absorbers.values():
+            absorber.settle(absorber.GetMyMutableContextFromRoot(self._context))
 
     def _residual(self, u: Float64) -> Float64:
         self._set(u)

@@ -1,11 +1,26 @@
 """Oil through an orifice: F = sgn(s') d s'².
 
 d is one value for compression and one for rebound, in N s²/m², either multiplied by a
-table over stroke (a metering pin).
+table over stroke (a metering pin), or over stroke and rate (valves).
 """
 
-from systems.tools.scalar import Scalar
+from systems.tools.grid import Grid
+from systems.tools.scalar import Scalar, sqrt
 from systems.tools.table import Table
+
+Metering = Table | Grid | None
+# Rate within which the flow through an orifice is laminar, m/s; where the oil is
+# compressible alone, whose rate would else be infinite at no pressure.
+_LAMINAR = 0.1
+
+
+def coefficient(s: Scalar, speed: Scalar, d: Scalar, metering: Metering) -> Scalar:
+    """Damping at stroke s (m) and magnitude of the rate (m/s), N s²/m²."""
+    if metering is None:
+        return d
+    if isinstance(metering, Grid):
+        return d * metering.value(s, speed)
+    return d * metering.value(s)
 
 
 def orifice_force(
@@ -13,8 +28,8 @@ def orifice_force(
     rate: Scalar,
     compression: Scalar,
     rebound: Scalar,
-    compression_metering: Table | None = None,
-    rebound_metering: Table | None = None,
+    compression_metering: Metering = None,
+    rebound_metering: Metering = None,
 ) -> Scalar:
     """Damping force against compression, N; positive in compression.
 
@@ -22,14 +37,46 @@ def orifice_force(
         s: m, stroke.
         rate: m/s, stroke rate, positive in compression.
         compression, rebound: N s²/m².
-        compression_metering, rebound_metering: factors over stroke.
+        compression_metering, rebound_metering: factors over stroke, or over stroke
+            and magnitude of the rate.
     """
     if rate >= 0.0:
-        d = compression
-        if compression_metering is not None:
-            d = d * compression_metering.value(s)
-        return d * rate * rate
-    d = rebound
-    if rebound_metering is not None:
-        d = d * rebound_metering.value(s)
-    return -d * rate * rate
+        return coefficient(s, rate, compression, compression_metering) * rate * rate
+    return -coefficient(s, -rate, rebound, rebound_metering) * rate * rate
+
+
+def orifice_rate(
+    s: Scalar,
+    force: Scalar,
+    compression: Scalar,
+    rebound: Scalar,
+    compression_metering: Metering = None,
+    rebound_metering: Metering = None,
+) -> Scalar:
+    """Rate at which a force (N) drives the oil, m/s: the inverse of d q √(q² + v_0²),
+    which is `orifice_force` but for the slowest rates.
+    """
+    inward = force >= 0.0
+    d, metering = (
+        (compression, compression_metering) if inward else (rebound, rebound_metering)
+    )
+    size = force if inward else -force
+    if not isinstance(metering, Grid):
+        q = _rate(size, coefficient(s, 0.0, d, metering))
+    else:
+        low, high = 0.0, 20.0
+        for _ in range(50):
+            q = 0.5 * (low + high)
+            enough = q * sqrt(q * q + _LAMINAR**2) * coefficient(s, q, d, metering)
+            low, high = (q, high) if enough < size else (low, q)
+        q = _rate(size, coefficient(s, high, d, metering))
+    return q if inward else -q
+
+
+def _rate(force: Scalar, d: Scalar) -> Scalar:
+    if not d > 0.0:
+        raise ValueError("oil spring: an orifice without damping, expected > 0 N s²/m²")
+    square, laminar = force / d, _LAMINAR**2
+    root = sqrt(laminar * laminar + 4.0 * square * square)
+    # Without the difference of two large numbers.
+    return square * sqrt(2.0 / (laminar + root))

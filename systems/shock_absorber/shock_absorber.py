@@ -36,8 +36,12 @@ def ShockAbsorber_(T):
         | out `components` | 4 | N | gas, damping, friction, stops, positive apart |
         | out `gas_pressure` (where the area is given) | 1 | Pa | absolute |
 
-        No state. Numeric parameters: `ShockAbsorberTunables`; `set_tunables`. A side
-        load that is not connected is zero.
+        States: with `thermal_time` the heat of each gas chamber, with `oil_stiffness`
+        the stroke of the gas, see `strut_law`; else none. `settle` sets them to what a
+        long time at the present stroke leaves.
+
+        Numeric parameters: `ShockAbsorberTunables`; `set_tunables`. A side load that is
+        not connected is zero.
         """
 
         def _construct(self, parameters: ShockAbsorberParameters, converter=None):
@@ -51,6 +55,11 @@ def ShockAbsorber_(T):
             self._side_load = self.DeclareVectorInputPort("side_load", 1)
             parameter = self.numeric_parameter_ticket(self._tunables)
             state = {self._state.ticket(), parameter}
+            initial = parameters.initial_state
+            if initial:
+                self.DeclareContinuousState(BasicVector_[T](initial))
+                state.add(self.xc_ticket())
+            self._has_state = bool(initial)
             everything = {*state, self._side_load.ticket()}
             # The law is evaluated once for force, components and power.
             self._forces = self.DeclareCacheEntry(
@@ -117,39 +126,61 @@ def ShockAbsorber_(T):
             self._parameters.with_tunables(values)
             vector.SetFromVector(values[:])
 
+        def settle(self, context) -> None:
+            """Sets gas and oil to a long rest at the present stroke.
+
+            The context is one of this system, `strut_state` connected or fixed.
+            """
+            if self._has_state:
+                s, _, _, p, _ = self._inputs(context)
+                settled = self._law.settled(s, p)
+                context.get_mutable_continuous_state_vector().SetFromVector(settled)
+
         def _inputs(self, context):
-            """stroke, rate, side load, tunables."""
+            """stroke, rate, side load, tunables, state."""
             s, rate = self._state.Eval(context).tolist()
             p = context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
             side_load = 0.0
             if p[6] > 0.0 and self._side_load.HasValue(context):
                 side_load = self._side_load.Eval(context).tolist()[0]
-            return s, rate, side_load, p
+            return s, rate, side_load, p, self._own_state(context)
+
+        def _own_state(self, context):
+            if not self._has_state:
+                return None
+            return context.get_continuous_state_vector().CopyToVector().tolist()
 
         def _calc_law(self, context, value):
-            """Rate, and the parts of the force."""
-            inputs = self._inputs(context)
-            value.set_value((inputs[1], self._law.forces(*inputs)))
+            """The parts of the force."""
+            value.set_value(self._law.forces(*self._inputs(context)))
 
         def _calc_force(self, context, output):
-            output.SetAtIndex(0, self._forces.Eval(context)[1].total)
+            output.SetAtIndex(0, self._forces.Eval(context).total)
 
         def _calc_energy(self, context, output):
-            s, _, _, p = self._inputs(context)
-            output.SetAtIndex(0, self._law.energy(s, p))
+            s, _, _, p, state = self._inputs(context)
+            output.SetAtIndex(0, self._law.energy(s, p, state))
 
         def _calc_dissipated_power(self, context, output):
-            rate, forces = self._forces.Eval(context)
-            output.SetAtIndex(0, forces.dissipating * rate)
+            s, rate, _, p, state = self._inputs(context)
+            forces = self._forces.Eval(context)
+            output.SetAtIndex(0, self._law.lost_power(s, rate, forces, p, state))
 
         def _calc_components(self, context, output):
-            gas, damping, friction, elastic, damper = self._forces.Eval(context)[1]
+            gas, damping, friction, elastic, damper = self._forces.Eval(context)
             output.SetFromVector([gas, damping, friction, elastic + damper])
 
         def _calc_gas_pressure(self, context, output):
-            s, _, _, p = self._inputs(context)
+            s, _, _, p, state = self._inputs(context)
             area = self._parameters.gas.area
-            output.SetAtIndex(0, self._law.gas_force(s, p) / area)
+            output.SetAtIndex(0, self._law.gas_force(s, p, state) / area)
+
+        def DoCalcTimeDerivatives(self, context, derivatives):
+            if self._has_state:
+                s, _, _, p, state = self._inputs(context)
+                derivatives.get_mutable_vector().SetFromVector(
+                    self._law.rates(s, p, state)
+                )
 
     return Impl
 

@@ -14,6 +14,11 @@ s_0 = F_0/k_e at zero stroke, where it holds the gas force exactly: the net forc
 zero at rest, and rises continuously with the slope k_e as the stop lets go between
 s = 0 and s_0. No load reaches the airframe before touchdown.
 
+Two refinements have states. Heat (`gas_heat`): w of each chamber, 1 at the precharge.
+Oil that is compressible is a spring in series with orifice and gas, precharged like
+the gas: the stroke of the gas is a state, and damping is what the oil carries beyond
+the gas.
+
 Energy: d(energy)/dt + dissipated_power = force × rate, energy zero at rest.
 """
 
@@ -23,12 +28,20 @@ from typing import Any, NamedTuple
 from pydrake.common.containers import namedview
 
 from systems.shock_absorber.friction import bearing_reactions, coulomb_force
+from systems.shock_absorber.gas_heat import (
+    Chamber,
+    available_energy,
+    heat_rates,
+    heated,
+    lost_power,
+    volumes,
+)
 from systems.shock_absorber.gas_spring import GasSpring, gas_energy, gas_force
-from systems.shock_absorber.orifice_damper import orifice_force
+from systems.shock_absorber.orifice_damper import Metering, orifice_force, orifice_rate
 from systems.tools.checks import require
+from systems.tools.grid import Grid
 from systems.tools.scalar import Scalar
 from systems.tools.stops import contact_elastic, contact_energy, never_pulling
-from systems.tools.table import Table
 
 ShockAbsorberTunables = namedview(
     "ShockAbsorberTunables",
@@ -57,7 +70,12 @@ class ShockAbsorberParameters:
         gas: the gas spring.
         max_stroke: m, mechanical stroke, where the bottoming stop begins.
         compression_damping, rebound_damping: N s²/m².
-        compression_metering, rebound_metering: factors on the damping over stroke (m).
+        compression_metering, rebound_metering: factors on the damping over stroke (m),
+            or over stroke and magnitude of the rate (m/s).
+        thermal_time: s, of the gas with the walls around it; None: polytropic, with
+            one exponent for ever.
+        oil_stiffness: N/m, bulk modulus times squared piston area over volume of the
+            oil; None: incompressible.
         extension_stop_stiffness, bottoming_stop_stiffness: N/m.
         stop_damping: s/m, χ of both stops.
         seal_friction: friction force over gas force.
@@ -74,8 +92,10 @@ class ShockAbsorberParameters:
     max_stroke: float
     compression_damping: float
     rebound_damping: float
-    compression_metering: Table | None = None
-    rebound_metering: Table | None = None
+    compression_metering: Metering = None
+    rebound_metering: Metering = None
+    thermal_time: float | None = None
+    oil_stiffness: float | None = None
     extension_stop_stiffness: float = 5e7
     bottoming_stop_stiffness: float = 3e7
     stop_damping: float = 0.5
@@ -112,10 +132,39 @@ class ShockAbsorberParameters:
             require(owner, name, getattr(self, name), "", at_least=0.0, at_most=1.0)
         for name in ("compression_metering", "rebound_metering"):
             table = getattr(self, name)
-            if table is not None and min(table.y) < 0.0:
+            if table is None:
+                continue
+            least = table.least if isinstance(table, Grid) else min(table.y)
+            if least < 0.0:
                 raise ValueError(
-                    f"{owner}: {name} has the factor {min(table.y)}, expected >= 0"
+                    f"{owner}: {name} has the factor {least}, expected >= 0"
                 )
+        for name, unit in (("thermal_time", "s"), ("oil_stiffness", "N/m")):
+            if getattr(self, name) is not None:
+                require(owner, name, getattr(self, name), unit, above=0.0)
+        if self.oil_stiffness is not None:
+            for name in ("compression_damping", "rebound_damping"):
+                require(
+                    owner,
+                    f"{name} beside compressible oil",
+                    getattr(self, name),
+                    "N s²/m²",
+                    above=0.0,
+                )
+
+    @property
+    def heats(self) -> int:
+        """Number of chambers whose heat is a state."""
+        if self.thermal_time is None:
+            return 0
+        return 2 if self.gas.second else 1
+
+    @property
+    def initial_state(self) -> list[float]:
+        """At rest, extended, at the temperature of the precharge: w of each chamber,
+        stroke of the gas (m).
+        """
+        return [1.0] * self.heats + [0.0] * (self.oil_stiffness is not None)
 
     @property
     def tunables(self) -> list[float]:
@@ -171,9 +220,10 @@ class StrutForces(NamedTuple):
 
 
 class StrutLaw:
-    """The force law of one strut: pure functions of stroke, rate and side load.
+    """The force law of one strut: pure functions of stroke, rate, side load and state.
 
-    `tunables` are the seven values of ShockAbsorberTunables, floats or AutoDiffXd.
+    `tunables` are the seven values of ShockAbsorberTunables, floats or AutoDiffXd;
+    `state` is as in `initial_state`, or None: adiabatic gas and incompressible oil.
     """
 
     def __init__(self, parameters: ShockAbsorberParameters) -> None:
@@ -196,21 +246,36 @@ class StrutLaw:
             )
         return length - (1.0 - _GAS_LIMIT) * (length - self._p.max_stroke)
 
+    def _chambers(self, tunables: list[Scalar]) -> list[Chamber]:
+        main = (tunables[0], tunables[1], tunables[2])
+        return [main] if self._second is None else [main, self._second]
+
+    def _gas_stroke(self, s: Scalar, state: list[Scalar] | None) -> Scalar:
+        return s if state is None or self._p.oil_stiffness is None else state[-1]
+
     def forces(
-        self, s: Scalar, rate: Scalar, side_load: Scalar, tunables: list[Scalar]
+        self,
+        s: Scalar,
+        rate: Scalar,
+        side_load: Scalar,
+        tunables: list[Scalar],
+        state: list[Scalar] | None = None,
     ) -> StrutForces:
         """The parts of the force at stroke (m), rate (m/s) and side load (N)."""
         p = self._p
         f0, _, _, compression, rebound, seal, bearing = tunables
-        gas = self.gas_force(s, tunables)
-        damping = orifice_force(
-            s,
-            rate,
-            compression,
-            rebound,
-            p.compression_metering,
-            p.rebound_metering,
-        )
+        gas = self.gas_force(s, tunables, state)
+        if state is not None and p.oil_stiffness is not None:
+            damping = f0 + p.oil_stiffness * (s - state[-1]) - gas
+        else:
+            damping = orifice_force(
+                s,
+                rate,
+                compression,
+                rebound,
+                p.compression_metering,
+                p.rebound_metering,
+            )
         friction = 0.0 * rate
         if seal > 0.0 or bearing > 0.0:
             reactions = bearing_reactions(side_load, s, p.axle_arm, p.bearing_distance)
@@ -231,20 +296,131 @@ class StrutLaw:
             )
         return StrutForces(gas, damping, friction, elastic, damper)
 
-    def gas_force(self, s: Scalar, tunables: list[Scalar]) -> Scalar:
+    def gas_force(
+        self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None = None
+    ) -> Scalar:
         """Force of the gas alone, N."""
-        f0, length, n = tunables[:3]
-        return gas_force(s, (f0, length, n), self._second, self._limit(length))
+        chambers = self._chambers(tunables)
+        if state is not None and self._p.heats:
+            chambers = [heated(c, w) for c, w in zip(chambers, state)]
+        second = chambers[1] if len(chambers) == 2 else None
+        at = self._gas_stroke(s, state)
+        return gas_force(at, chambers[0], second, self._limit(tunables[1]))
 
-    def energy(self, s: Scalar, tunables: list[Scalar]) -> Scalar:
-        """Energy stored in gas and stops, zero at zero stroke, J."""
+    def energy(
+        self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None = None
+    ) -> Scalar:
+        """Energy stored in gas, oil and stops, zero at zero stroke, J."""
         p = self._p
-        f0, length, n = tunables[:3]
+        f0 = tunables[0]
         k = p.extension_stop_stiffness
         preload = f0 / k
         return (
-            gas_energy(s, (f0, length, n), self._second, self._limit(length))
+            self._gas_energy(s, tunables, state)
+            + self._oil_energy(s, f0, state)
             + contact_energy(preload - s, k)
             - 0.5 * f0 * preload
             + contact_energy(s - p.max_stroke, p.bottoming_stop_stiffness)
         )
+
+    def _gas_energy(
+        self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None
+    ) -> Scalar:
+        chambers, limit = self._chambers(tunables), self._limit(tunables[1])
+        at = self._gas_stroke(s, state)
+        if state is None or not self._p.heats:
+            second = chambers[1] if len(chambers) == 2 else None
+            return gas_energy(at, chambers[0], second, limit)
+        inside = at if at < limit else limit
+        x = volumes(inside, chambers, state)
+        energy = available_energy(x, chambers, state)
+        if at < limit:
+            return energy
+        # Along the tangent, as the force.
+        return energy + 0.5 * (at - limit) * (
+            self.gas_force(limit, tunables, [*state[: self._p.heats], limit])
+            + self.gas_force(s, tunables, state)
+        )
+
+    def _oil_energy(self, s: Scalar, f0: Scalar, state: list[Scalar] | None) -> Scalar:
+        k = self._p.oil_stiffness
+        if state is None or k is None:
+            return 0.0
+        pressed = s - state[-1]
+        return pressed * (f0 + 0.5 * k * pressed)
+
+    def lost_power(
+        self,
+        s: Scalar,
+        rate: Scalar,
+        forces: StrutForces,
+        tunables: list[Scalar],
+        state: list[Scalar] | None = None,
+    ) -> Scalar:
+        """Power that turns into heat, W, >= 0."""
+        if state is None:
+            return forces.dissipating * rate
+        lost, flow = (forces.friction + forces.stop_damping) * rate, rate
+        if self._p.oil_stiffness is not None:
+            flow = self._flow(s, forces.damping, tunables, state)
+        lost = lost + forces.damping * flow
+        if self._p.thermal_time is not None:
+            chambers = self._chambers(tunables)
+            x = volumes(self._within(s, tunables, state), chambers, state)
+            lost = lost + lost_power(x, chambers, state, self._p.thermal_time)
+        return lost
+
+    def _within(
+        self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None
+    ) -> Scalar:
+        at, limit = self._gas_stroke(s, state), self._limit(tunables[1])
+        return at if at < limit else limit
+
+    def _flow(
+        self, s: Scalar, force: Scalar, tunables: list[Scalar], state: list[Scalar]
+    ) -> Scalar:
+        """Rate of the stroke of the gas, m/s."""
+        p = self._p
+        metering = p.compression_metering, p.rebound_metering
+        return orifice_rate(state[-1], force, tunables[3], tunables[4], *metering)
+
+    def rates(
+        self, s: Scalar, tunables: list[Scalar], state: list[Scalar]
+    ) -> list[Scalar]:
+        """Time derivatives of the state."""
+        p, rates = self._p, []
+        if p.thermal_time is not None:
+            chambers = self._chambers(tunables)
+            x = volumes(self._within(s, tunables, state), chambers, state)
+            rates = heat_rates(x, chambers, state, p.thermal_time)
+        if p.oil_stiffness is not None:
+            gas = self.gas_force(s, tunables, state)
+            carried = tunables[0] + p.oil_stiffness * (s - state[-1])
+            rates.append(self._flow(s, carried - gas, tunables, state))
+        return rates
+
+    def settled(self, s: float, tunables: list[float]) -> list[float]:
+        """The state after a long time at a stroke (m): as warm as the walls, no flow.
+
+        The two chambers share the stroke isothermally.
+        """
+        p = self._p
+        low, high = s - 0.5 * p.max_stroke, s
+        for _ in range(60 if p.oil_stiffness is not None else 0):
+            middle = 0.5 * (low + high)
+            assert p.oil_stiffness is not None
+            carried = tunables[0] + p.oil_stiffness * (s - middle)
+            gas = self.gas_force(middle, tunables, self._warm(middle, tunables))
+            low, high = (middle, high) if gas < carried else (low, middle)
+        state = self._warm(high, tunables)
+        return state[: p.heats] + [high] * (p.oil_stiffness is not None)
+
+    def _warm(self, gas_stroke: float, tunables: list[float]) -> list[float]:
+        """Isothermal w of each chamber at a stroke of the gas, and that stroke."""
+        if not self._p.heats:
+            return [gas_stroke]
+        chambers, limit = self._chambers(tunables), self._limit(tunables[1])
+        at = min(gas_stroke, limit)
+        isothermal = [(force, length, 1.0) for force, length, _ in chambers]
+        x = volumes(at, isothermal, [1.0] * len(chambers))
+        return [v ** (c[2] - 1.0) for v, c in zip(x, chambers)] + [gas_stroke]
