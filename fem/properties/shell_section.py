@@ -77,9 +77,23 @@ def turned_flexibility(flexibility: Float64, angle: Float64) -> Float64:
     return np.swapaxes(r, -1, -2) @ flexibility @ r
 
 
-def intrinsic_bending(section: ShellSection) -> Float64:
-    """(e, 3, 3) D - B A^-1 B: bending stiffness about the neutral surface."""
-    if not section.coupling.any():
-        return section.bending
-    reduced = section.coupling @ np.linalg.pinv(section.membrane, hermitian=True)
-    return section.bending - reduced @ section.coupling
+def line_strain(direction: Float64) -> Float64:
+    """(..., 3) strain xx yy xy of a unit stretch along `direction` (..., 2)."""
+    c, s = np.moveaxis(direction, -1, 0)
+    return np.stack([c * c, s * s, 2.0 * c * s], axis=-1)
+
+
+def bending_along(section: ShellSection, direction: Float64) -> Float64:
+    """(e, k) bending stiffness per width along unit vectors (e, k, 2).
+
+    That of a strip about its own neutral surface: D_l - B_l^2 / A_l, the direct
+    stiffnesses along l. A laminate's reference surface does not matter, and the
+    stiffness is the one of its transverse shear (cylindrical bending).
+    """
+    strain = line_strain(direction)
+    a, b, d = (
+        np.einsum("eki,eij,ekj->ek", strain, part, strain)
+        for part in (section.membrane, section.coupling, section.bending)
+    )
+    there = a > 0.0
+    return d - np.where(there, b * b / np.where(there, a, 1.0), 0.0)

@@ -48,10 +48,10 @@ def straight_beam(kind, nx=6):
 def test_straight_beam():
     # extension, in-plane shear, out-of-plane shear, twist.
     expected = {
-        "rectangles": [0.996, 0.990, 0.981, 0.953],
+        "rectangles": [0.996, 0.990, 0.987, 0.953],
         # Four nodes that pass the patch test must lock here (MacNeal 1987).
-        "trapezoids": [0.999, 0.052, 0.975, 0.947],
-        "parallelograms": [0.999, 0.631, 0.987, 0.862],
+        "trapezoids": [0.999, 0.052, 0.981, 0.944],
+        "parallelograms": [0.999, 0.631, 0.992, 0.863],
     }
     for kind, ratios in expected.items():
         np.testing.assert_allclose(straight_beam(kind), ratios, atol=2e-3)
@@ -75,7 +75,7 @@ def curved_beam(nx, ny=1):
 
 def test_curved_beam():
     # OptiStruct's CQUAD4 on this mesh: 0.952, 0.955; MSC (1985): 0.833, 0.951.
-    np.testing.assert_allclose(curved_beam(6), [0.885, 0.952], atol=2e-3)
+    np.testing.assert_allclose(curved_beam(6), [0.885, 0.956], atol=2e-3)
     np.testing.assert_allclose(curved_beam(24), [1.012, 0.963], atol=3e-3)
 
 
@@ -101,7 +101,7 @@ def test_twisted_beam():
     reference = [0.005424, 0.001754]
     coarse = twisted_beam(1) / reference
     fine = twisted_beam(4) / reference
-    np.testing.assert_allclose(coarse, [0.993, 0.997], atol=2e-3)
+    np.testing.assert_allclose(coarse, [0.994, 0.9995], atol=2e-3)
     np.testing.assert_allclose(fine, 1.0, atol=3e-3)
     triangular = twisted_beam(4, corners=3) / reference
     np.testing.assert_allclose(triangular, [0.996, 0.975], atol=3e-3)
@@ -134,7 +134,7 @@ def test_scordelis_lo_roof():
     """OptiStruct's CQUAD4, N = 2, 4, 6, 8, 10: 1.487 1.082 1.035 1.020 1.013."""
     found = [scordelis_lo(n) for n in (2, 4, 8, 16, 32)]
     np.testing.assert_allclose(
-        found, [1.4225, 1.0575, 1.0107, 1.0005, 0.9982], atol=2e-3
+        found, [1.4273, 1.0598, 1.0124, 1.0017, 0.9989], atol=2e-3
     )
     # Constant strain in the plane converges from the stiff side, slowly.
     coarse, fine = scordelis_lo(16, 3), scordelis_lo(32, 3)
@@ -164,7 +164,7 @@ def hemisphere(n, corners=4):
 def test_hemisphere_with_hole():
     """Reference 0.094; later computations converge to about 0.0935 (0.995)."""
     found = [hemisphere(n) for n in (4, 8, 16)]
-    np.testing.assert_allclose(found, [0.994, 1.002, 0.996], atol=3e-3)
+    np.testing.assert_allclose(found, [1.001, 1.005, 0.997], atol=3e-3)
     assert hemisphere(16, 3) == pytest.approx(0.992, abs=3e-3)
 
 
@@ -333,7 +333,8 @@ def test_cantilever_plate_between_the_solvers():
             [8.4595, 52.8788, 56.9077],
         ]
     )
-    assert (found > 0.999 * others.min(axis=0)).all()
+    # The torsion mode of elements 4 by 3 is 0.4 % softer than NASTRAN-95's.
+    assert (found > 0.996 * others.min(axis=0)).all()
     assert (found < 1.001 * others.max(axis=0)).all()
     load = np.zeros((len(xyz), 6))
     load[50, 2] = 10.0

@@ -3,9 +3,15 @@
 The quadrilateral assumes the resultants of Pian and Sumihara (1984), for the membrane
 and likewise for bending: uniform ones, and one linear along each natural direction.
 With compatible linear displacements and rotations it is exact for uniform states on any
-shape (patch test) and for bending of rectangles in their plane. On rectangles it agrees
-with the grid point forces that MSC and NX Nastran print. Laminates couple both through
-their compliance [A B; B D]^-1.
+shape (patch test) and for bending of rectangles in their plane. Laminates couple both
+through their compliance [A B; B D]^-1.
+
+The linear resultants know no shear in their plane (Nastran takes it at the centre), and
+the strain across is what it would be in a membrane that is free there: -A_12 / A_22 of
+the strain along, in bending too, as the displacements and the rotations have one set of
+shape functions. Of isotropic sheets the compliance says the same; of laminates, where
+it would free shear and curvature as well, the forces on rectangles are so those of MSC
+and NX Nastran to seven digits.
 """
 
 from dataclasses import dataclass
@@ -14,7 +20,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.elements.shells.shell_geometry import Facet
-from fem.properties.shell_section import ShellSection
+from fem.properties.shell_section import ShellSection, line_strain
 
 _GAUSS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / np.sqrt(3.0)
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
@@ -109,17 +115,34 @@ def _joined(section: ShellSection) -> tuple[Float64, Float64]:
     return joined, there
 
 
-def _compliance(section: ShellSection) -> tuple[Float64, Float64]:
-    """(e, q, 6, 6) at the Gauss points (q 1 or 4), and the mask of `_joined`."""
-    joined, there = _joined(section)
+def _compliance(joined: Float64) -> Float64:
+    """(e, 6, 6) inverse of [A B; B D], finite also without stiffness in a direction."""
     scale = np.sqrt(np.einsum("eii->ei", joined).clip(1e-300))
     scaled = joined / (scale[:, :, None] * scale[:, None, :])
     # A material without stiffness in a direction (MAT2) has no finite compliance.
     value = np.linalg.eigvalsh(scaled)
-    scaled[value[:, 0] < 1e-12 * value[:, -1]] += 1e-9 * np.eye(6)
-    flexible = np.linalg.inv(scaled) / (scale[:, :, None] * scale[:, None, :])
+    scaled[value[:, 0] < 1e-12 * value[:, -1]] += 1e-9 * np.eye(joined.shape[-1])
+    return np.linalg.inv(scaled) / (scale[:, :, None] * scale[:, None, :])
+
+
+def _line_compliance(joined: Float64, there: Float64, along: Float64) -> Float64:
+    """(e, 2, 2) of linear resultants N and M along unit vectors (e, 2)."""
+    strain = line_strain(along)
+    across = line_strain(np.stack([-along[:, 1], along[:, 0]], axis=1))
+    parts = [joined[:, i : i + 3, j : j + 3] for i in (0, 3) for j in (0, 3)]
+    plane = np.where(there[:, :1, None], parts[0], parts[3])
+    square = np.einsum("ei,eij,ej->e", across, plane, across)
+    free = np.einsum("ei,eij,ej->e", strain, plane, across)
+    free = np.where(square > 0.0, free / np.where(square > 0.0, square, 1.0), 0.0)
+    strain = strain - free[:, None] * across
+    stiffness = [np.einsum("ei,eij,ej->e", strain, part, strain) for part in parts]
+    return _compliance(np.stack(stiffness, axis=1).reshape(-1, 2, 2))
+
+
+def _of_thickness(compliance: Float64, section: ShellSection) -> Float64:
+    """(e, q, 2 m, 2 m) at the Gauss points (q 1 or 4) from (e, 2 m, 2 m)."""
     if section.taper is None:
-        return flexible[:, None], there
+        return compliance[:, None]
     bilinear = (
         0.25
         * (1 + np.outer(_GAUSS[:, 0], _CORNERS[:, 0]))
@@ -127,9 +150,9 @@ def _compliance(section: ShellSection) -> tuple[Float64, Float64]:
     )
     ratio = section.taper @ bilinear.T
     # A grows with t, B with t^2, D with t^3: the compliance with their inverses.
-    power = np.array([0.5] * 3 + [1.5] * 3)
+    power = np.repeat([0.5, 1.5], compliance.shape[-1] // 2)
     factor = ratio[..., None] ** -power
-    return flexible[:, None] * factor[..., :, None] * factor[..., None, :], there
+    return compliance[:, None] * factor[..., :, None] * factor[..., None, :]
 
 
 def _quadrilateral(shape: Facet, section: ShellSection) -> InPlane:
@@ -143,43 +166,70 @@ def _quadrilateral(shape: Facet, section: ShellSection) -> InPlane:
     jacobian = derivative @ shape.xy[:, None]
     weight = np.linalg.det(jacobian)
     strain = plane_strain_operator(np.linalg.inv(jacobian) @ derivative)
-    at_gauss = _resultant_modes(shape, _GAUSS)
+    centre = (weight @ _GAUSS) / weight.sum(axis=1)[:, None]
+    along = _natural_directions(shape)
+    at_gauss = _resultant_modes(along, _GAUSS - centre[:, None])
     force = np.einsum("eq,eqsb,eqsn->ebn", weight, at_gauss, strain, optimize=True)
-    compliance, there = _compliance(section)
-    weighted = weight[..., None, None] * compliance
-    flexible = np.zeros((len(shape.xy), 10, 10))
-    for i, j in ((0, 0), (0, 1), (1, 1)):
-        part = weighted[:, :, 3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
-        block = (at_gauss.transpose(0, 1, 3, 2) @ part @ at_gauss).sum(axis=1)
-        flexible[:, 5 * i : 5 * i + 5, 5 * j : 5 * j + 5] = block
-        flexible[:, 5 * j : 5 * j + 5, 5 * i : 5 * i + 5] = block.transpose(0, 2, 1)
+    joined, there = _joined(section)
+    flexible = _flexibility(
+        at_gauss, weight, _of_thickness(_compliance(joined), section)
+    )
+    for k, coordinate in ((0, 1), (1, 0)):
+        line = _of_thickness(_line_compliance(joined, there, along[:, k]), section)
+        square = weight * (_GAUSS[:, coordinate] - centre[:, coordinate, None]) ** 2
+        pair = np.array([3 + k, 8 + k])
+        flexible[:, pair[:, None], pair] = np.sum(
+            square[..., None, None] * line, axis=1
+        )
     work = np.zeros((len(force), 10, 16))
     work[:, :5, :8] = force * there[:, None, None, 0]
     work[:, 5:, 8:] = force * there[:, None, None, 3]
     modes = np.linalg.solve(flexible, work)
     stiffness = work.transpose(0, 2, 1) @ modes
-    points = _resultant_modes(shape, CENTRE_AND_CORNERS)
+    points = _resultant_modes(along, CENTRE_AND_CORNERS - centre[:, None])
     at = np.zeros((*points.shape[:2], 6, 10))
     at[:, :, :3, :5] = points * there[:, None, None, :1]
     at[:, :, 3:, 5:] = points * there[:, None, None, 3:4]
     return InPlane(reduced=stiffness, modes=modes, at=at)
 
 
-def _resultant_modes(shape: Facet, at: Float64) -> Float64:
-    """(e, p, 3, 5) assumed resultants of Pian and Sumihara at natural points (p, 2)."""
+def _flexibility(modes: Float64, weight: Float64, compliance: Float64) -> Float64:
+    """(e, 10, 10) of the amplitudes of N and M from (e, q, 6, 6) at Gauss points."""
+    weighted = weight[..., None, None] * compliance
+    flexible = np.zeros((len(weight), 10, 10))
+    for i, j in ((0, 0), (0, 1), (1, 1)):
+        part = weighted[:, :, 3 * i : 3 * i + 3, 3 * j : 3 * j + 3]
+        block = (modes.transpose(0, 1, 3, 2) @ part @ modes).sum(axis=1)
+        flexible[:, 5 * i : 5 * i + 5, 5 * j : 5 * j + 5] = block
+        flexible[:, 5 * j : 5 * j + 5, 5 * i : 5 * i + 5] = block.transpose(0, 2, 1)
+    return flexible
+
+
+def _natural_directions(shape: Facet) -> Float64:
+    """(e, 2, 2) unit vectors along xi and eta at the centre."""
     x = shape.xy
     along = 0.25 * np.stack(
         [x[:, 1] + x[:, 2] - x[:, 0] - x[:, 3], x[:, 2] + x[:, 3] - x[:, 0] - x[:, 1]],
         axis=1,
     )
-    # Lengths divided out: the columns stay of order one on any mesh.
-    along = along / np.linalg.norm(along, axis=2, keepdims=True)
-    modes = np.zeros((len(x), len(at), 3, 5))
+    return along / np.linalg.norm(along, axis=2, keepdims=True)
+
+
+def _resultant_modes(along: Float64, at: Float64) -> Float64:
+    """(e, p, 3, 5) assumed resultants of Pian and Sumihara.
+
+    Args:
+        along: (e, 2, 2) unit vectors along xi and eta.
+        at: (e, p, 2) natural coordinates about the centre of the area, so that the
+            linear resultants have no mean. (Lengths divided out: the columns stay of
+            order one on any mesh.)
+    """
+    modes = np.zeros((*at.shape[:2], 3, 5))
     modes[..., :3] = np.eye(3)
-    for k, coordinate in ((0, at[:, 1]), (1, at[:, 0])):
+    for k, coordinate in ((0, 1), (1, 0)):
         a, b = along[:, k, 0], along[:, k, 1]
         direction = np.stack([a * a, b * b, a * b], axis=1)
-        modes[..., 3 + k] = coordinate[:, None] * direction[:, None, :]
+        modes[..., 3 + k] = at[:, :, coordinate, None] * direction[:, None, :]
     return modes
 
 

@@ -4,55 +4,68 @@ Shear strains are sampled along the edges, where bending without shear gives non
 (no locking, Dvorkin and Bathe 1984, MacNeal 1978), and the flexibility is augmented by
 the deficiency of linear elements in bending that varies along an edge l,
 
-    Z = Z_s + sum over edges of l l^T / (24 D_l),
+    Z = Z_s + Z_r,    Z_r = sum over edges of l l^T / (24 D_l),
 
-D_l the bending stiffness along the edge (MacNeal's residual bending flexibility). The
-uniform strain takes all of it; the linear one of the quadrilateral takes 1/40; the
-circulation of the triangle, the same shear along all its edges, takes the mean Z. With
-these shares squares and half squares have the grid point forces that MSC and NX Nastran
-print, to six digits. In longer elements the full length would make the plate soft in
-torsion (a strip of 6 x 2 elements of aspect 10 by a factor of 2): quadrilaterals count
-their edges with the shorter mean side, triangles are held to the half square's ratio of
-the principal values.
+D_l the bending stiffness along the edge (MacNeal's residual bending flexibility); of a
+laminate that about the neutral surface of the direction l. The uniform strain takes all
+of it, with the full lengths of the edges.
+
+The part of the strain along x that varies with y bends two strips of length dx in
+opposite senses: the element twists, and its width dy resists as well. Two springs side
+by side, 12 D / dx^2 of the strips and (1 / e - 1) 12 D / dy^2 of the twist, leave of
+the residual flexibility the share
+
+    a = e / (e + (1 - e) (dx / dy)^2),    e = 1/40
+
+(MacNeal, Computers & Structures 8, 1978, and Finite Elements in Analysis and Design 5,
+1989, as quoted in public code); likewise that of the strain along y, with dy / dx. On
+rectangles, laminates included, reactions and shear forces are those of MSC and NX
+Nastran to seven digits. On other quadrilaterals the strains are those along the natural
+directions, dx is the mean length in that direction, dy the mean width across it.
+
+The triangle's uniform strain takes Z likewise. The circulation, the same shear along
+all its edges, has no direction: its residual flexibility is A / (6 D), A the area, the
+only one that all triangles of equal sides, half squares and slender ones share with the
+sum over the edges,
+
+    Z_c = sqrt(4/3 det Z_r),    as det(sum of l l^T) = 12 A^2 for any triangle,
+
+and the stiffness is the mean over both directions. Half squares have the grid point
+forces of MSC and NX Nastran to six digits; in slender triangles of a foreign airframe
+the moments at the grids balance under MSC's displacements.
 """
 
 import numpy as np
 
 from fem.arrays import Float64
 from fem.elements.shells.shell_geometry import Facet
-from fem.properties.shell_section import ShellSection, intrinsic_bending
+from fem.properties.shell_section import ShellSection, bending_along
 
-LINEAR_SHARE = 0.025
-HALF_SQUARE_RATIO = 3.0
+TWIST_SHARE = 1.0 / 40.0
 
 
-def residual_flexibility(shape: Facet, bending: Float64) -> Float64:
-    """(e, 2, 2) sum of l l^T / (24 D_l) over the edges l, limited for long elements.
-
-    Args:
-        shape: geometry.
-        bending: (e, 3, 3) bending stiffness in element axes.
-    """
+def residual_flexibility(shape: Facet, section: ShellSection) -> Float64:
+    """(e, 2, 2) sum of l l^T / (24 D_l) over the edges l."""
     edge = shape.edges
     length = np.linalg.norm(edge, axis=-1)
     direction = edge / np.where(length == 0.0, 1.0, length)[..., None]
-    c, s = np.moveaxis(direction, -1, 0)
-    curvature = np.stack([c * c, s * s, 2.0 * c * s], axis=-1)
-    along = np.einsum("eki,eij,ekj->ek", curvature, bending, curvature)
-    if shape.corners == 4:
-        sides = 0.5 * (length[:, :2] + length[:, 2:])
-        length = np.broadcast_to(sides.min(axis=1, keepdims=True), length.shape)
+    along = bending_along(section, direction)
     share: Float64 = length**2 / (24.0 * np.where(along > 0.0, along, np.inf))
     scaled = share[..., None] * direction
     residual: Float64 = np.matmul(scaled.transpose(0, 2, 1), direction)
-    return _limited(residual) if shape.corners == 3 else residual
+    return residual
 
 
-def _limited(flexibility: Float64) -> Float64:
-    """Symmetric (e, 2, 2) with the larger principal value at most 3 times the other."""
-    value, vector = np.linalg.eigh(flexibility)
-    value = np.minimum(value, HALF_SQUARE_RATIO * value[:, :1])
-    return np.einsum("eik,ek,ejk->eij", vector, value, vector)
+def twist_shares(jacobian: Float64) -> Float64:
+    """(e, 2) shares of the strains along the natural directions that vary across.
+
+    Args:
+        jacobian: (e, 2, 2) rows are the halves of the mean vectors along xi and eta.
+    """
+    length = np.linalg.norm(jacobian, axis=2)
+    ratio = length**2 / np.abs(np.linalg.det(jacobian))[:, None]
+    shares: Float64 = TWIST_SHARE / (TWIST_SHARE + (1.0 - TWIST_SHARE) * ratio**2)
+    return shares
 
 
 def edge_shear(shape: Facet) -> Float64:
@@ -80,16 +93,13 @@ def shear(shape: Facet, section: ShellSection) -> tuple[Float64, Float64]:
         (e, 6 n, 6 n) stiffness and (e, 2, 6 n) shear forces at the centre; both zero
         where the element has no bending stiffness.
     """
-    bending = intrinsic_bending(section)
-    residual = residual_flexibility(shape, bending)
-    plate = np.einsum("eii->e", bending) > 0.0
+    plate = np.einsum("eii->e", section.bending) > 0.0
     # Membranes have no shear; any positive flexibility lets the algebra run.
-    flexible = plate[:, None, None] & np.ones((1, 2, 2), bool)
-    base = np.where(flexible, section.shear_flexibility, 0.0)
-    total = np.where(flexible, base + residual, np.eye(2))
+    there = plate[:, None, None]
+    base = np.where(there, section.shear_flexibility, np.eye(2))
+    residual = np.where(there, residual_flexibility(shape, section), 0.0)
     part = _quadrilateral if shape.corners == 4 else _triangle
-    linear = np.where(flexible, base + LINEAR_SHARE * residual, np.eye(2))
-    stiffness, force = part(shape, total, linear)
+    stiffness, force = part(shape, base, residual)
     stiffness[~plate] = 0.0
     force[~plate] = 0.0
     return stiffness, force
@@ -101,7 +111,7 @@ def _congruence(operator: Float64, matrix: Float64) -> Float64:
 
 
 def _quadrilateral(
-    shape: Facet, total: Float64, linear: Float64
+    shape: Facet, base: Float64, residual: Float64
 ) -> tuple[Float64, Float64]:
     edge = edge_shear(shape)
     # Covariant strains: along xi on edges 1-2 and 4-3, along eta on 1-4 and 2-3.
@@ -119,16 +129,17 @@ def _quadrilateral(
     uniform = inverse @ mean
     # A uniform strain has covariant components that vary by the twist of the shape.
     slope = slope - (twist[:, None, :] @ uniform)
-    stiff, area = np.linalg.inv(total), shape.area[:, None, None]
+    stiff, area = np.linalg.inv(base + residual), shape.area[:, None, None]
     stiffness = area * _congruence(uniform, stiff)
-    stiff_linear = np.linalg.inv(linear)
-    weight = np.einsum("eki,ekl,eli->ei", inverse, stiff_linear, inverse)
+    share = twist_shares(jacobian)[..., None, None]
+    varying = np.linalg.inv(base[:, None] + share * residual[:, None])
+    weight = np.einsum("eik,ekij,ejk->ek", inverse, varying, inverse)
     stiffness += area / 3.0 * (slope.transpose(0, 2, 1) @ (weight[..., None] * slope))
     return stiffness, stiff @ uniform
 
 
 def _triangle(
-    shape: Facet, total: Float64, _linear: Float64
+    shape: Facet, base: Float64, residual: Float64
 ) -> tuple[Float64, Float64]:
     edge = edge_shear(shape)
     vectors = shape.edges
@@ -136,8 +147,10 @@ def _triangle(
     circulation = edge.sum(axis=1) / length.sum(axis=1)[:, None]
     rest = edge - length[..., None] * circulation[:, None, :]
     uniform = np.linalg.inv(vectors[:, :2]) @ rest[:, :2]
-    stiff, area = np.linalg.inv(total), shape.area[:, None, None]
+    stiff, area = np.linalg.inv(base + residual), shape.area[:, None, None]
     stiffness = area * _congruence(uniform, stiff)
-    mean = 0.5 * np.einsum("eii->e", total)[:, None, None]
-    stiffness += area / mean * circulation[:, :, None] * circulation[:, None, :]
+    turning = np.sqrt(4.0 / 3.0 * np.linalg.det(residual).clip(0.0))
+    turned = np.linalg.inv(base + turning[:, None, None] * np.eye(2))
+    mean = 0.5 * np.einsum("eii->e", turned)[:, None, None]
+    stiffness += area * mean * circulation[:, :, None] * circulation[:, None, :]
     return stiffness, stiff @ uniform
