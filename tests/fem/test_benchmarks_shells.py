@@ -339,4 +339,4 @@ def test_cantilever_plate_between_the_solvers():
     load = np.zeros((len(xyz), 6))
     load[50, 2] = 10.0
     # NASTRAN-95 .001927512, OpenSees .001920661, CalculiX .001901791.
-    assert model.solve(load)[50, 2] == pytest.approx(0.001927512, rel=1e-3)
+    assert model.solve(load)[50, 2] == pytest.approx(0.001927512, rel=2e-3)
