@@ -258,10 +258,22 @@ class Airframe(Section):
         return self
 
 
+Duration = Annotated[
+    Annotated[Literal["auto"], Tag("(name)")]
+    | Annotated[float, Field(gt=0, le=60), Tag("(number)")],
+    Discriminator(lambda value: "(name)" if isinstance(value, str) else "(number)"),
+]
+
+
 class Simulation(Section):
     """The multibody run."""
 
-    duration: float = number("from just above touchdown", "s", 1.0, gt=0, le=60)
+    duration: Duration = Field(
+        default="auto",
+        description="from just above touchdown, s, > 0 and <= 60; auto: until the last "
+        "swing of the airframe brings no extreme of loads, accelerations, section "
+        "loads or stresses any more, at most 5 s",
+    )
     integrator: Literal[
         "runge_kutta3", "runge_kutta5", "bogacki_shampine3", "radau3"
     ] = Field(default="runge_kutta3", description="Drake's integration scheme")
@@ -370,8 +382,6 @@ class Case(Section):
             raise ValueError(f"gears: name {', '.join(twice)} is used more than once")
         return self
 
-    @property
-    def transient_duration(self) -> float:
-        """Of the direct transient response, s: never beyond the simulation."""
-        wanted = self.transient.duration or self.simulation.duration
-        return min(wanted, self.simulation.duration)
+    def transient_duration(self, landing: float) -> float:
+        """Of the direct transient response, s: never beyond the landing's."""
+        return min(self.transient.duration or landing, landing)

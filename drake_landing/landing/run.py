@@ -27,6 +27,7 @@ from drake_landing.landing.history import (
     TYRE,
     LandingHistory,
 )
+from drake_landing.landing.settling import LIMIT, Settling, has_settled, swing_of
 from drake_landing.landing.start import (
     make_scenario_diagram,
     reference_energy,
@@ -120,6 +121,7 @@ def fly(
     monitoring: Mapping[str, int],
     R_AB: Float64,
     progress: Reporter | None = None,
+    settling: Settling | None = None,
 ) -> LandingHistory:
     """Simulates one landing.
 
@@ -130,6 +132,8 @@ def fly(
         monitoring: point -> grid id.
         R_AB: (3, 3).
         progress: told the share of the duration.
+        settling: how a run without a given duration ends; default by the modes that
+            the body has.
 
     Raises:
         LandingError: the integrator gave up.
@@ -141,11 +145,15 @@ def fly(
     try:
         with single_threaded_blas():
             simulator.Initialize()
-            simulator.AdvanceTo(simulation.duration)
+            if simulation.duration == "auto":
+                settling = settling or Settling(swing=_swing(landing))
+                _advance_until_settled(simulator, landing, settling)
+            else:
+                simulator.AdvanceTo(simulation.duration)
     except (RuntimeError, SystemExit) as error:  # Drake's checks exit
         raise LandingError(
             f"the landing simulation stopped at {context.get_time():.4f} s of "
-            f"{simulation.duration:g} s: {error}; a larger simulation.accuracy, fewer "
+            f"{_end(simulation):g} s: {error}; a larger simulation.accuracy, fewer "
             "modes or the integrator radau3 may help"
         ) from None
     integrator = simulator.get_integrator()
@@ -156,6 +164,28 @@ def fly(
         "sink_energy": reference_energy(landing, scenario),
     }
     return _history(landing, context, monitoring, R_AB, figures)
+
+
+def _end(simulation: Simulation) -> float:
+    """When a run ends at the latest, s."""
+    return LIMIT if simulation.duration == "auto" else simulation.duration
+
+
+def _swing(landing: LandingDiagram) -> float:
+    frequency = landing.body.frequency
+    return swing_of(float(frequency[0]) if len(frequency) else 0.0)
+
+
+def _advance_until_settled(
+    simulator: Simulator, landing: LandingDiagram, settling: Settling
+) -> None:
+    end = settling.first
+    simulator.AdvanceTo(end)
+    while end < LIMIT and not has_settled(
+        landing, simulator.get_context(), settling.swing
+    ):
+        end = min(end + settling.swing, LIMIT)
+        simulator.AdvanceTo(end)
 
 
 def start_state(
@@ -190,7 +220,7 @@ def _simulator(
 
     def tell(root: Context) -> EventStatus:
         now = root.get_time()
-        progress.share(now / simulation.duration, f"{now:.3f} s")
+        progress.share(now / _end(simulation), f"{now:.3f} s")
         return EventStatus.DidNothing()
 
     simulator.set_monitor(tell)

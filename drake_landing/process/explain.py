@@ -19,10 +19,12 @@ from drake_landing.airframe.body import check_nodes, modal_body
 from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_free_flight, check_mass
 from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.airframe.load_shapes import load_model
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
+from drake_landing.landing.settling import LIMIT
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import StepError, expected_step_error
@@ -33,6 +35,7 @@ from systems.tools.compiled import compiled_before
 
 _AT_ONCE = 200_000  # freedoms that are factorised without being asked, some seconds
 _HEAD = 12  # characters
+_USUAL = 1.2  # s, of a landing that ends by itself
 
 # Processor seconds as measured: fixed ones, per second of landing, per mode of that,
 # per step of the transient over a solution.
@@ -70,7 +73,8 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         if thorough or structure.size <= _AT_ONCE:
             check_free_flight(structure)
             cost = _cost(structure)
-            step = expected_step_error(case, aircraft, structure, Cache.of_user())
+            shapes = load_model(structure, aircraft, Cache.of_user())
+            step = expected_step_error(case, aircraft, structure, shapes)
         _dry_run(case, aircraft, structure)
     lines = [*_airframe(case, aircraft, structure, cost), *_gears(aircraft)]
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
@@ -192,27 +196,39 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
 def _run(
     case: Case, structure: Structure, cost: Cost | None, step: StepError | None
 ) -> Iterator[str]:
-    steps = case.transient_duration / case.transient.step
+    duration, transient = case.simulation.duration, case.transient
+    length = _USUAL if duration == "auto" else duration
+    until = (
+        f"until it settles (duration auto, at most {LIMIT:g} s)"
+        if duration == "auto"
+        else f"{duration:g} s"
+    )
+    steps = case.transient_duration(length) / transient.step
+    as_long = duration == "auto" and transient.duration is None
+    many = "steps" if as_long else f"{steps:.0f} steps"
     yield _line(
         "run",
-        f"landing {case.simulation.duration:g} s ({case.simulation.integrator}), then "
-        f"{steps:.0f} steps of {case.transient.step:g} s of the full model",
+        f"landing {until}, {case.simulation.integrator}; then {many} of "
+        f"{transient.step:g} s of the full model",
     )
     yield _line("", str(step) if step else "error of the step: check --thorough")
     if cost:
         yield _line(
             "",
-            f"about {_expected(case, structure, cost, steps)} of processor time"
+            f"about {_expected(case, structure, cost, length, steps)} of processor "
+            "time"
             + ("" if compiled_before() else "; the first run compiles, half a minute"),
         )
 
 
-def _expected(case: Case, structure: Structure, cost: Cost, steps: float) -> str:
+def _expected(
+    case: Case, structure: Structure, cost: Cost, length: float, steps: float
+) -> str:
     """How long the run takes, one digit: modes unknown, so a guess of their number."""
     select = case.airframe.select
     modes = select.value if select.kind in ("count", "relevance", "pulses") else 80
     modal = 3 * (cost.factor + modes * cost.solve)
-    flight = case.simulation.duration * (_FLIGHT + _MODE * modes)
+    flight = length * (_FLIGHT + _MODE * modes)
     transient = cost.factor + _STEP * steps * cost.solve
     seconds = _START + modal + flight + transient
     digits = float(f"{seconds:.1g}")

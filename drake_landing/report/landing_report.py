@@ -96,6 +96,7 @@ def _sections(
         blocks=[
             pairs_block(_case_pairs(result)),
             pairs_block(reliability(result), "How far the numbers carry"),
+            *_late(result),
         ],
     )
     yield from parts_sections(result, pictures, unable)
@@ -129,6 +130,21 @@ def _sections(
         blocks=[Block(svg=figures.energy(result.history))],
     )
     yield _tables(result)
+
+
+def _late(result: "ProcessResult") -> list[Block]:
+    """Extremes that came in the last swing."""
+    if result.late.empty:
+        return []
+    heads = {"kind": "kind", "quantity": "quantity", "value": "SI", "time": "time, s"}
+    return [
+        table_block(
+            result.late,
+            heads,
+            {"value": ".4g", "time": ".3f"},
+            "Extremes in the last swing of the run: a longer one may find more",
+        )
+    ]
 
 
 def _extremes(result: "ProcessResult") -> Section:
@@ -265,7 +281,8 @@ def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
         ),
         (
             "multibody run",
-            f"{sim.duration:g} s, {sim.integrator}, accuracy {sim.accuracy:g}: "
+            f"{result.history.time[-1]:.4g} s, {sim.integrator}, accuracy "
+            f"{sim.accuracy:g}: "
             f"{run['steps']:.0f} steps, {run['evaluations']:.0f} evaluations",
         ),
         (

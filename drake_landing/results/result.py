@@ -32,6 +32,8 @@ class ProcessResult:
         envelopes: extremes of all element forces and stresses in the transient.
         parts: what the parts see.
         step: what the time step of the transient is expected to cost.
+        swing: period of the lowest elastic mode within bounds, s.
+        late: extremes in the last swing, see `late_extremes`.
         practices: the three practices side by side, where they were asked for.
         comparison: table of `comparison.csv`.
         gears: table of `gears.csv`.
@@ -50,6 +52,8 @@ class ProcessResult:
     gears: pd.DataFrame
     parts: PartsFound
     step: StepError
+    swing: float
+    late: pd.DataFrame
     practices: Practices | None = None
     notices: tuple[str, ...] = ()
     stages: Stages = field(default_factory=Stages, repr=False)

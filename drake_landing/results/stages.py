@@ -69,7 +69,7 @@ class Stages:
     def split(self, parts: Mapping[str, Spent]) -> None:
         """Books parts of the stage that runs under their own names."""
         for name, spent in parts.items():
-            self.spent[name] = spent
+            self.spent[name] = self.spent.get(name, Spent()) + spent
             self.memory[name] = peak_memory_gb()
             self._start = self._start + spent
 

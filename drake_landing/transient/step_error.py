@@ -15,11 +15,9 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
-from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.pulses import GearPulses
 from drake_landing.airframe.relevance import ModalModel, modal_accelerations
 from drake_landing.airframe.selection import expected_pulses
-from drake_landing.cache import Cache
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import resample, time_grid
 from drake_landing.transient.response import SCHEMES
@@ -99,15 +97,20 @@ def step_error(
 
 
 def expected_step_error(
-    case: Case, aircraft: Aircraft, structure: Structure, cache: Cache | None = None
+    case: Case, aircraft: Aircraft, structure: Structure, model: ModalModel
 ) -> StepError:
     """Of the step of a case.
+
+    Args:
+        case: its step and scheme.
+        aircraft, structure: of the case.
+        model: of `load_model`.
 
     Raises:
         InputError: it is above `REFUSED` and above what the case accepts.
     """
     found = step_error(
-        load_model(structure, aircraft, cache),
+        model,
         expected_pulses(structure, case.airframe, aircraft, aircraft.scenario),
         list(aircraft.monitoring),
         case.transient.step,

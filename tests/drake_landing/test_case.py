@@ -39,7 +39,8 @@ def test_defaults_make_a_complete_case() -> None:
     assert case.gears == "d150"
     assert case.simulation.integrator == "runge_kutta3"
     assert case.airframe.select == Selection(kind="below", value=50.0)
-    assert case.transient_duration == case.simulation.duration
+    assert case.simulation.duration == "auto"
+    assert case.transient_duration(1.7) == 1.7
 
 
 def test_text_of_a_case_reads_back_equal() -> None:

@@ -87,7 +87,9 @@ def test_tables_have_the_agreed_columns(result: ProcessResult, folder: Path) -> 
     assert set(table["run"]) == {"tiny"}
     assert set(table["modes"]) == {60}
     gears = pd.read_csv(folder / "gears.csv")
-    assert list(gears.columns) == ["run", "gear", "quantity", "peak", "time"]
+    assert list(gears.columns) == [
+        *("run", "gear", "quantity", "peak", "time", "last_swing"),
+    ]
     assert set(gears["quantity"]) == {
         *("tyre_vertical", "tyre_drag", "stroke"),
         *(f"attachment_{c}" for c in ("fx", "fy", "fz", "mx", "my", "mz")),
@@ -100,6 +102,7 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
         *("comparison.csv", "gears.csv", "attachment_loads.csv", "tyres.csv"),
         *("worst_elements.csv", "worst_stresses.csv", "section_loads.csv"),
         *("section_roots.csv", "accelerations_equipment.csv", "stages.csv"),
+        *("late_extremes.csv",),
         "pictures",
         *("struts.csv", "accelerations_multibody.csv", "accelerations_transient.csv"),
     }
@@ -286,7 +289,7 @@ def test_extremes_of_all_elements_are_kept(result: ProcessResult, folder: Path) 
     """The envelope of an element bounds what its worst row says."""
     worst = pd.read_csv(folder / "worst_elements.csv")
     assert list(worst.columns) == [
-        *("result", "type", "column", "element", "value", "time"),
+        *("result", "type", "column", "element", "value", "time", "last_swing"),
     ]
     row = worst[(worst["result"] == "force") & (worst["column"] == "axial")].iloc[0]
     with h5py.File(folder / "results.h5") as file:

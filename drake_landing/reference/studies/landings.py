@@ -53,6 +53,13 @@ class LandingTask:
     aircraft: Aircraft
 
     @property
+    def duration(self) -> float:
+        """Of the transient, s."""
+        landing = self.case.simulation.duration
+        assert landing != "auto"  # runs are compared over the same time
+        return self.case.transient_duration(landing)
+
+    @property
     def key(self) -> str:
         """Of everything that the run depends on, the program's own text included."""
         gears = [gear.model_dump_json() for gear in self.aircraft.gears]
@@ -64,7 +71,7 @@ class LandingTask:
             dict(self.aircraft.monitoring),
             case.scenario.model_dump_json(),
             case.simulation.model_dump_json(),
-            [case.transient.step, case.transient_duration],
+            [case.transient.step, self.duration],
             case.airframe.axes.model_dump_json(),
         )
 
@@ -114,9 +121,7 @@ def _fly(task: LandingTask) -> Arrays:
         task.body, aircraft.gears, points, R_AB, case.scenario, slow
     )
     history = fly(landing, case.scenario, case.simulation, points, R_AB)
-    loads = history.attachment_loads().resampled(
-        case.transient.step, case.transient_duration
-    )
+    loads = history.attachment_loads().resampled(case.transient.step, task.duration)
     inside = np.minimum(loads.time, history.time[-1])
     acceleration = [
         smooth_curve(history.time, table.to_numpy())(inside)
