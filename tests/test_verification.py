@@ -7,7 +7,10 @@ from benchmarks.verification.row import Row, convergence, field, figure, listed
 from benchmarks.verification.table import page
 
 # Seconds long; `make verify` runs them, and the slow tests.
-LONG = {"straight_beam", "rectangular_plates", "plates", "plate_transients"}
+LONG = {
+    *("straight_beam", "rectangular_plates", "plates", "plate_transients"),
+    *("quadratic_cantilevers", "thick_plate"),
+}
 
 
 def check(case, references_folder):

@@ -6,6 +6,15 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from fem.deck.records.solids import HEXA, PENTA, PYRAMID, TETRA
+
+# Corners of the edges of each solid, in the order of its mid-sides.
+EDGES = {
+    "CHEXA": HEXA.edges,
+    "CPENTA": PENTA.edges,
+    "CPYRAM": PYRAMID.edges,
+    "CTETRA": TETRA.edges,
+}
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
@@ -96,6 +105,14 @@ def box(nx: int, ny: int, nz: int) -> tuple[Float64, Int64]:
     layers = [quads + k * len(flat) for k in range(nz + 1)]
     bricks = [np.c_[below, above] for below, above in pairwise(layers)]
     return points, np.concatenate(bricks)
+
+
+def with_mid_sides(card: str, xyz: Float64, conn: Int64) -> tuple[Float64, Int64]:
+    """Nodes at the middles of the edges of solids, and the longer connections."""
+    pairs = np.sort(conn[:, np.array(EDGES[card])], axis=2)
+    unique, inverse = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
+    nodes = np.vstack([xyz, xyz[unique].mean(axis=1)])
+    return nodes, np.c_[conn, len(xyz) + inverse.reshape(len(conn), -1)]
 
 
 def triangles(quads: Int64) -> Int64:

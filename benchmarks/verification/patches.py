@@ -6,7 +6,7 @@ MacNeal and Harder's meshes of quadrilaterals and bricks, and what is cut from t
 import numpy as np
 
 from benchmarks.verification.macneal_harder import shell_model
-from benchmarks.verification.mesh import Bulk, triangles
+from benchmarks.verification.mesh import Bulk, triangles, with_mid_sides
 from benchmarks.verification.row import Row, figure
 from benchmarks.verification.runner import run
 
@@ -125,7 +125,7 @@ def solid_patches() -> list[Row]:
 
 
 def _solid_meshes(xyz: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Bricks; pyramids about their centres; tetrahedra of 4 and 10 nodes; prisms."""
+    """Bricks; pyramids about their centres; tetrahedra; prisms; each with mid-sides."""
     faces = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1),
              (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]  # fmt: skip
     apex = len(xyz) + np.arange(len(_BRICKS))
@@ -138,18 +138,22 @@ def _solid_meshes(xyz: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
         a, b, c, d = base[start:] + base[:start]
         tetras += [[a, b, c, top], [a, c, d, top]]
     small = np.array(tetras)
-    edges = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
-    pairs = np.sort(small[:, np.array(edges)], axis=2)
-    unique, inverse = np.unique(pairs.reshape(-1, 2), axis=0, return_inverse=True)
-    more = np.vstack([nodes, nodes[unique].mean(axis=1)])
-    large = np.c_[small, len(nodes) + inverse.reshape(len(small), -1)]
     flat, prisms = _leaning_prisms()
+    quadratic = [
+        (card, *with_mid_sides(card, points, conn))
+        for card, points, conn in (
+            ("CHEXA", xyz, _BRICKS),
+            ("CPYRAM", nodes, pyramids),
+            ("CTETRA", nodes, small),
+            ("CPENTA", flat, prisms),
+        )
+    ]
     return [
         ("CHEXA", xyz, _BRICKS),
         ("CPYRAM", nodes, pyramids),
         ("CTETRA", nodes, small),
-        ("CTETRA", more, large),
         ("CPENTA", flat, prisms),
+        *quadratic,
     ]
 
 

@@ -1,10 +1,19 @@
-"""CHEXA with 8 nodes (hybrid, Pian and Tong) or 20 nodes (displacements)."""
+"""CHEXA with 8 nodes (hybrid, Pian and Tong) or 20 nodes (reduced shear).
 
+With 20 nodes the normal strains are integrated at 3 x 3 x 3 points, the shear strains
+at 2 x 2 x 2; printed shear is trilinear through these. A gravity load on one element in
+MSC 2020 (pyNastran models, single_element-3d) and a transient in NX 2019.2 (tr1091x)
+have these displacements, forces and stresses to single precision. In its nonlinear
+SOL 106 NX has the same stresses with 3 x 3 x 3 points for all forces (ehbus69).
+"""
+
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from fem.arrays import Float64
+from fem.elements.solids.element_axes import hexa_axes
 from fem.elements.solids.isoparametric import (
     HEX_CORNERS,
     gauss_hex,
@@ -16,10 +25,12 @@ from fem.elements.solids.isoparametric import (
 from fem.elements.solids.solid import Shape, Solid
 from fem.elements.solids.solid_reader import read_solids
 from fem.elements.solids.solid_stiffness import (
+    Sampling,
     SolidMatrices,
     displacement_solid,
     hybrid_solid,
     pian_tong,
+    reduced_shear_solid,
 )
 from fem.geometry.points import Points
 
@@ -36,10 +47,40 @@ def hexa8(nodes: Float64, elasticity: Float64) -> SolidMatrices:
     )
 
 
-def hexa20(nodes: Float64, elasticity: Float64) -> SolidMatrices:
-    """Twenty nodes (e, 20, 3): displacements, 3 x 3 x 3 points."""
+def _sampling(order: int) -> Sampling:
+    """Normal strains at order^3 points, shear strains at 2 x 2 x 2."""
+    shear = gauss_hex(2)
+    # Trilinear functions through the points: 1 at its own point, 0 at the others.
+    spread = np.linalg.solve(hex8(shear.points).T, hex8(OUTPUT).T).T
+    return Sampling(
+        normal=gauss_hex(order),
+        shear=shear,
+        spread=spread,
+        axes=hexa_axes,
+        centre=OUTPUT[:1],
+    )
+
+
+def hexa20(nodes: Float64, elasticity: Float64, *, order: int = 3) -> SolidMatrices:
+    """Twenty nodes (e, 20, 3): reduced shear."""
+    return reduced_shear_solid(
+        nodes, elasticity, hex20_derivatives, _sampling(order), OUTPUT
+    )
+
+
+def hexa20_full(
+    nodes: Float64, elasticity: Float64, *, order: int = 3
+) -> SolidMatrices:
+    """Twenty nodes: all strains at the same order^3 points."""
     return displacement_solid(
-        nodes, elasticity, hex20_derivatives, gauss_hex(3), OUTPUT
+        nodes, elasticity, hex20_derivatives, gauss_hex(order), OUTPUT
+    )
+
+
+def hexa8_full(nodes: Float64, elasticity: Float64, *, order: int) -> SolidMatrices:
+    """Eight nodes: displacements, order^3 points."""
+    return displacement_solid(
+        nodes, elasticity, hex8_derivatives, gauss_hex(order), OUTPUT
     )
 
 
@@ -54,6 +95,10 @@ HEXA8 = Shape(
     # Not the corners: Nastran takes bricks that fold there, as in the patch of MacNeal
     # and Harder, and nothing is evaluated there.
     checked=np.concatenate([OUTPUT[:1], gauss_hex(2).points]),
+    integration={
+        ("TWO", "FULL"): partial(hexa8_full, order=2),
+        ("THREE", "FULL"): partial(hexa8_full, order=3),
+    },
 )
 HEXA20 = Shape(
     card="CHEXA",
@@ -64,7 +109,11 @@ HEXA20 = Shape(
     derivatives=hex20_derivatives,
     mass_rule=gauss_hex(3),
     checked=np.concatenate([OUTPUT[:1], gauss_hex(3).points]),
-    quadratic=True,
+    integration={
+        ("TWO", "REDUCED"): partial(hexa20, order=2),
+        ("TWO", "FULL"): partial(hexa20_full, order=2),
+        ("THREE", "FULL"): hexa20_full,
+    },
 )
 
 

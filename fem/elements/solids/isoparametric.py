@@ -67,6 +67,27 @@ def gauss_penta() -> Rule:
     return Rule(points=np.array(points), weights=np.full(6, 1.0 / 6.0))
 
 
+def product_penta(triangle: int, height: int) -> Rule:
+    """A rule of 3 or 7 points on the triangle times Gauss points along zeta.
+
+    The three lie inside (Strang and Fix); the seven are exact to degree 5 (Radon).
+    """
+    if triangle == 3:
+        flat, area = [[1 / 6, 1 / 6], [2 / 3, 1 / 6], [1 / 6, 2 / 3]], [1 / 6] * 3
+    else:
+        root = np.sqrt(15.0)
+        flat, area = [[1 / 3, 1 / 3]], [9 / 80]
+        for a, w in (
+            ((6 - root) / 21, (155 - root) / 2400),
+            ((6 + root) / 21, (155 + root) / 2400),
+        ):
+            flat += [[a, a], [1 - 2 * a, a], [a, 1 - 2 * a]]
+            area += [w] * 3
+    z, w = np.polynomial.legendre.leggauss(height)
+    points = [[*p, k] for k in z for p in flat]
+    return Rule(points=np.array(points), weights=np.outer(w, area).ravel())
+
+
 def gauss_tetra(order: int) -> Rule:
     """One point (order 1) or four points (order 2)."""
     if order == 1:
@@ -76,6 +97,14 @@ def gauss_tetra(order: int) -> Rule:
         points=np.array([[b, b, b], [a, b, b], [b, a, b], [b, b, a]]),
         weights=np.full(4, 1.0 / 24.0),
     )
+
+
+def tetra5() -> Rule:
+    """Five points, exact to degree 3, the one at the centre with a negative weight."""
+    points = np.full((5, 3), 1.0 / 6.0)
+    points[0] = 0.25
+    points[[2, 3, 4], [0, 1, 2]] = 0.5
+    return Rule(points=points, weights=np.array([-16.0, 9.0, 9.0, 9.0, 9.0]) / 120.0)
 
 
 def tetra15() -> Rule:

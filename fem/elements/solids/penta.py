@@ -12,6 +12,7 @@ their nodal forces are an approximation that refinement removes.
 """
 
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,16 +20,19 @@ import numpy as np
 from fem.arrays import Float64
 from fem.elements.solids.isoparametric import (
     PENTA_CORNERS,
+    Rule,
     gauss_penta,
     jacobians,
     penta6,
     penta6_derivatives,
+    product_penta,
     strain_operator,
     strain_transform,
 )
+from fem.elements.solids.penta15 import PENTA15
 from fem.elements.solids.solid import Shape, Solid
 from fem.elements.solids.solid_reader import read_solids
-from fem.elements.solids.solid_stiffness import SolidMatrices
+from fem.elements.solids.solid_stiffness import SolidMatrices, displacement_solid
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -204,6 +208,11 @@ def _bubble(xyz: Float64, at: Float64) -> Float64:
     return ratio[..., None, None] * (turn @ covariant)
 
 
+def penta6_full(nodes: Float64, elasticity: Float64, *, rule: Rule) -> SolidMatrices:
+    """Six nodes: displacements, all strains at the same points."""
+    return displacement_solid(nodes, elasticity, penta6_derivatives, rule, OUTPUT)
+
+
 PENTA6 = Shape(
     card="CPENTA",
     nodes=6,
@@ -213,9 +222,13 @@ PENTA6 = Shape(
     derivatives=penta6_derivatives,
     mass_rule=gauss_penta(),
     checked=OUTPUT,
+    integration={
+        ("TWO", "FULL"): partial(penta6_full, rule=product_penta(3, 2)),
+        ("THREE", "FULL"): partial(penta6_full, rule=product_penta(7, 3)),
+    },
 )
 
 
 def read_cpenta(deck: "Deck", points: Points) -> list[Solid]:
     """The CPENTA blocks of a deck; see `read_solids`."""
-    return read_solids(deck, points, "CPENTA", (PENTA6,))
+    return read_solids(deck, points, "CPENTA", (PENTA6, PENTA15))

@@ -1,7 +1,7 @@
 """Blocks of solids: three freedoms per node, stresses at the centre and the corners."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -10,12 +10,16 @@ from fem.deck.records.solids import SOLID_STRAIN, SOLID_STRESS
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.shell_recovery import point_names
+from fem.elements.solids.element_axes import stress_rotation
 from fem.elements.solids.isoparametric import Derivatives, Rule, jacobians
 from fem.elements.solids.solid_stiffness import SolidMatrices
 from fem.elements.stress_measures import solid_principal, solid_von_mises
 
 # Elements that are integrated at a time: bounds the memory for large models.
 _CHUNK = 2048
+
+
+Matrices = Callable[[Float64, Float64], SolidMatrices]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,18 +33,44 @@ class Shape:
         values, derivatives: shape functions at natural points.
         mass_rule: quadrature of the mass.
         checked: (p, 3) natural points where the Jacobian must be positive.
-        quadratic: with mid-side nodes.
+        integration: other ways to integrate, by the fields IN and ISOP of PSOLID.
     """
 
     card: str
     nodes: int
     corners: int
-    matrices: Callable[[Float64, Float64], SolidMatrices]
+    matrices: Matrices
     values: Derivatives
     derivatives: Derivatives
     mass_rule: Rule
     checked: Float64
-    quadratic: bool = False
+    integration: Mapping[tuple[str, str], Matrices] = field(default_factory=dict)
+
+
+def lumped_mass(nodes: Float64, masses: Float64, corners: int) -> Float64:
+    """(e, n) masses at the nodes, none of them negative on common shapes.
+
+    Linear elements: the integrals of the shape functions. Those of quadratic elements
+    are negative at the corners: what the corners have is given to the mid-sides in
+    proportion to their squared distance from the centre of the element. On a box this
+    is 1/24 + L^2 / (8 sum L^2) of the mass on the middle of an edge of length L, which
+    MSC 2020 has (gravity load of one CHEXA with edges of 2.5, 5 and 10).
+
+    Args:
+        nodes: (e, n, 3) corners, then mid-sides.
+        masses: (e, n) integrals of the shape functions.
+        corners: number of corners.
+    """
+    if masses.shape[1] == corners:
+        return masses
+    middles = nodes[:, corners:]
+    centre = nodes[:, :corners].mean(axis=1, keepdims=True)
+    square = ((middles - centre) ** 2).sum(axis=2)
+    share = square / square.sum(axis=1, keepdims=True)
+    lumped = np.zeros_like(masses)
+    total = masses[:, :corners].sum(axis=1, keepdims=True)
+    lumped[:, corners:] = masses[:, corners:] + total * share
+    return lumped
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,26 +119,18 @@ class Solid(DenseBlock):
         ) @ (rule.weights)
 
     def mass(self, *, coupled: bool) -> Float64:
-        """(e, 3 n, 3 n).
-
-        Lumped: row sums for linear elements; for quadratic ones the diagonal of the
-        coupled matrix scaled to the total mass, since row sums are negative there.
-        """
+        """(e, 3 n, 3 n): of the displacements, or lumped (`lumped_mass`)."""
         rule = self.shape.mass_rule
         slope, value = (
             self.shape.derivatives(rule.points),
             self.shape.values(rule.points),
         )
         weight = rule.weights * np.linalg.det(jacobians(self.nodes, slope))
-        product = np.einsum("eq,qi,qj->eij", weight, value, value, optimize=True)
-        if not coupled:
-            diagonal = product.sum(axis=2)
-            if self.shape.quadratic:
-                total = diagonal.sum(axis=1, keepdims=True)
-                diagonal = np.einsum("eii->ei", product)
-                diagonal = diagonal * total / diagonal.sum(axis=1, keepdims=True)
-            product = diagonal[:, :, None] * np.eye(self.shape.nodes)
-        # Last: the scaling of quadratic elements divides by the mass of the shape.
+        if coupled:
+            product = np.einsum("eq,qi,qj->eij", weight, value, value, optimize=True)
+        else:
+            masses = lumped_mass(self.nodes, weight @ value, self.shape.corners)
+            product = masses[:, :, None] * np.eye(self.shape.nodes)
         product = product * self.rho[:, None, None]
         size = 3 * self.shape.nodes
         full = product[:, :, None, :, None] * np.eye(3)[:, None, :]
@@ -163,21 +185,3 @@ class SolidRecovery(Recovery):
             axis=-1,
         )
         return columns.reshape(*linear.shape[:-1], -1)
-
-
-def stress_rotation(axes: Float64, *, strain: bool = False) -> Float64:
-    """(e, 6, 6) components along rows of `axes` from basic ones, xx yy zz xy yz zx.
-
-    Engineering shear strains take the factor 2 on the other side of the diagonal.
-    """
-    pairs = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0))
-    matrix = np.empty((len(axes), 6, 6))
-    for row, (i, j) in enumerate(pairs):
-        for col, (a, b) in enumerate(pairs):
-            value = axes[:, i, a] * axes[:, j, b]
-            if a != b:
-                value = value + axes[:, i, b] * axes[:, j, a]
-            if strain and (a != b) != (i != j):
-                value = value * (0.5 if a != b else 2.0)
-            matrix[:, row, col] = value
-    return matrix

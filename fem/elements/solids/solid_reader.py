@@ -1,6 +1,7 @@
 """CHEXA, CPENTA, CTETRA and CPYRAM cards to blocks: PSOLID, material axes, shape."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -8,8 +9,14 @@ import pandas as pd
 
 from fem.arrays import Float64, Int64
 from fem.deck.references import refer, table, where
+from fem.elements.solids.element_axes import (
+    hexa_axes,
+    penta_axes,
+    stress_rotation,
+)
+from fem.elements.solids.integration import integration_of
 from fem.elements.solids.isoparametric import jacobians
-from fem.elements.solids.solid import Shape, Solid, stress_rotation
+from fem.elements.solids.solid import Matrices, Shape, Solid
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.properties.elasticity import ElasticityTable
@@ -38,15 +45,29 @@ def read_solids(
         chosen = np.flatnonzero(count == shape.nodes)
         if not len(chosen):
             continue
-        grids = np.stack([nodes[i] for i in chosen])
-        part = rows.iloc[chosen].reset_index(drop=True)
         try:
-            blocks.append(_block(deck, points, part, shape, grids))
+            for some, variant in _by_integration(deck, rows.iloc[chosen], shape):
+                grids = np.stack([nodes[i] for i in chosen[some]])
+                part = rows.iloc[chosen[some]].reset_index(drop=True)
+                blocks.append(_block(deck, points, part, variant, grids))
         except InputError as error:
             problems += error.problems
     if problems:
         raise InputError(problems)
     return blocks
+
+
+def _by_integration(
+    deck: "Deck", rows: pd.DataFrame, shape: Shape
+) -> list[tuple[Int64, Shape]]:
+    """Positions of the elements by what their PSOLID asks for, and their shape."""
+    properties = refer(rows, shape.card, "pid", table(deck, "PSOLID"), "PSOLID")
+    asked = list(zip(properties["integ"], properties["isop"]))
+    groups: dict[Matrices, list[int]] = {}
+    for k, (integ, isop) in enumerate(asked):
+        way = integration_of(shape, integ, isop) or shape.matrices
+        groups.setdefault(way, []).append(k)
+    return [(np.array(at), replace(shape, matrices=way)) for way, at in groups.items()]
 
 
 def _unsupported(
@@ -134,7 +155,8 @@ def material_axes(
     """(e, 3, 3) rows are the axes of CORDM: 0 basic, -1 the element, else a system.
 
     The element axes are the orthogonal ones closest to the natural directions at the
-    centre; a tetrahedron has x along G1-G2 and z normal to G1-G2-G3.
+    centre, or to the sides of a prism (`element_axes.py`); a tetrahedron has x along
+    G1-G2 and z normal to G1-G2-G3.
     """
     cordm = properties["cordm"].to_numpy(np.int64)
     axes = np.broadcast_to(np.eye(3), (len(nodes), 3, 3)).copy()
@@ -156,6 +178,4 @@ def _element_axes(nodes: Float64, shape: Shape) -> Float64:
         return triad / np.linalg.norm(triad, axis=2, keepdims=True)
     centre = shape.checked[:1]
     natural = jacobians(nodes, shape.derivatives(centre))[:, 0]
-    natural = natural / np.linalg.norm(natural, axis=2, keepdims=True)
-    left, _, right = np.linalg.svd(natural)
-    return left @ right
+    return penta_axes(natural) if shape.card == "CPENTA" else hexa_axes(natural)

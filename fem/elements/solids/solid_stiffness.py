@@ -1,4 +1,8 @@
-"""Stiffness and stresses of solids: assumed displacements, or assumed stresses.
+"""Stiffness and stresses of solids: displacements, reduced shear, assumed stresses.
+
+Reduced shear: in the element's own axes the normal strains are integrated and printed
+as they are, the shear strains taken at fewer points. Both rules integrate the nodal
+forces of uniform stress exactly while edges are straight (patch test).
 
 The hybrid hexahedron assumes the 18 stress modes of Pian and Tong (1986): uniform
 stress; normal stresses that vary across their direction; shear that varies along the
@@ -7,11 +11,13 @@ exact on any shape; the modes leave bending free of locking. On cubes it has the
 point forces that MSC and NX Nastran print for their CHEXA.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from fem.arrays import Float64
+from fem.elements.solids.element_axes import stress_rotation
 from fem.elements.solids.isoparametric import (
     Derivatives,
     Rule,
@@ -35,7 +41,12 @@ class SolidMatrices:
 
 
 def displacement_solid(
-    xyz: Float64, elasticity: Float64, derivatives: Derivatives, rule: Rule, at: Float64
+    xyz: Float64,
+    elasticity: Float64,
+    derivatives: Derivatives,
+    rule: Rule,
+    at: Float64,
+    spread: Float64 | None = None,
 ) -> SolidMatrices:
     """Isoparametric displacement element.
 
@@ -45,15 +56,71 @@ def displacement_solid(
         derivatives: shape function derivatives at natural points.
         rule: quadrature.
         at: (p, 3) natural points of the stresses.
+        spread: (p, q) the stresses there from those at the points of the rule; None:
+            as they are at the points.
     """
     strain, weight = _strain(xyz, derivatives, rule)
     stress = elasticity[:, None] @ strain
     stiffness = np.einsum("eq,eqsi,eqsj->eij", weight, strain, stress, optimize=True)
+    if spread is not None:
+        outside = np.einsum("pq,eqsi->epsi", spread, stress)
+        return SolidMatrices(stiffness=stiffness, stress=outside)
     gradient = derivatives(at)
     inverse = np.linalg.inv(jacobians(xyz, gradient))
     return SolidMatrices(
         stiffness=stiffness,
         stress=elasticity[:, None] @ strain_operator(inverse @ gradient),
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sampling:
+    """Where the strains of an element with reduced shear are taken.
+
+    Attributes:
+        normal, shear: quadrature of the normal and of the shear strains.
+        spread: (p, q) values at the output points from those at the points of `shear`.
+        axes: element axes (e, 3, 3) from the Jacobian at the centre.
+        centre: (1, 3) natural point.
+    """
+
+    normal: Rule
+    shear: Rule
+    spread: Float64
+    axes: Callable[[Float64], Float64]
+    centre: Float64
+
+
+def reduced_shear_solid(
+    xyz: Float64,
+    elasticity: Float64,
+    derivatives: Derivatives,
+    sampling: Sampling,
+    at: Float64,
+) -> SolidMatrices:
+    """Displacement element with normal and shear strains taken at different points.
+
+    The energy is that of all strains by the rule of the shear, and of the normal ones
+    by their own rule instead. Arguments as for `displacement_solid`.
+    """
+    axes = sampling.axes(jacobians(xyz, derivatives(sampling.centre))[:, 0])
+    turn = stress_rotation(axes, strain=True)
+    normal = np.linalg.solve(turn, np.diag([1.0] * 3 + [0.0] * 3) @ turn)[:, None]
+    coarse, coarse_weight = _strain(xyz, derivatives, sampling.shear)
+    fine, fine_weight = _strain(xyz, derivatives, sampling.normal)
+
+    def energy(strain: Float64, weight: Float64) -> Float64:
+        stress = elasticity[:, None] @ strain
+        return np.einsum("eq,eqsi,eqsj->eij", weight, strain, stress, optimize=True)
+
+    stiffness = energy(coarse, coarse_weight) - energy(normal @ coarse, coarse_weight)
+    gradient = derivatives(at)
+    inverse = np.linalg.inv(jacobians(xyz, gradient))
+    direct = normal @ strain_operator(inverse @ gradient)
+    shear = np.einsum("pq,eqsi->epsi", sampling.spread, coarse - normal @ coarse)
+    return SolidMatrices(
+        stiffness=stiffness + energy(normal @ fine, fine_weight),
+        stress=elasticity[:, None] @ (direct + shear),
     )
 
 

@@ -7,7 +7,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from shell_model import scattered
 
-from fem.elements.solids.hexa import HEXA8, HEXA20
+from benchmarks.verification.runner import run
+from fem.deck.reader import read_deck
+from fem.deck.records.solids import PENTA, PYRAMID
+from fem.elements.solids.element_axes import penta_axes, stress_rotation
+from fem.elements.solids.hexa import HEXA8, HEXA20, hexa8_full
 from fem.elements.solids.isoparametric import (
     HEX20_POINTS,
     HEX_CORNERS,
@@ -16,9 +20,11 @@ from fem.elements.solids.isoparametric import (
     jacobians,
     tetra15,
 )
+from fem.elements.solids.notices import solid_notices
 from fem.elements.solids.penta import PENTA6
-from fem.elements.solids.pyramid import PYRAM5
-from fem.elements.solids.solid import Shape, Solid, stress_rotation
+from fem.elements.solids.penta15 import PENTA15
+from fem.elements.solids.pyramid import PYRAM5, PYRAM13
+from fem.elements.solids.solid import Shape, Solid, lumped_mass
 from fem.elements.solids.tetra import TETRA4, TETRA10
 from fem.elements.stress_measures import solid_principal
 from fem.properties.elasticity import isotropic_solid
@@ -26,6 +32,12 @@ from fem.properties.elasticity import isotropic_solid
 E, NU = 1e6, 0.25
 _EDGES = ((0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3))
 _PYRAMID = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 1.0]])
+
+
+def _with_middles(corners, edges):
+    return np.vstack([corners, corners[np.array(edges)].mean(axis=1)])
+
+
 NATURAL = {
     "HEXA8": (HEXA8, HEX_CORNERS),
     "HEXA20": (HEXA20, HEX20_POINTS),
@@ -38,6 +50,8 @@ NATURAL = {
         ),
     ),
     "PYRAM5": (PYRAM5, _PYRAMID),
+    "PENTA15": (PENTA15, _with_middles(PENTA_CORNERS, PENTA.edges)),
+    "PYRAM13": (PYRAM13, _with_middles(_PYRAMID, PYRAMID.edges)),
 }
 
 
@@ -224,12 +238,15 @@ def test_mass_is_density_times_volume_and_positive(kind, coupled):
     stretched = natural * [2.0, 1.0, 0.5]
     block = solids(shape, stretched, np.arange(len(natural))[None], rho=3.0)
     mass = block.mass(coupled=coupled)[0]
-    volume = {"HEXA8": 8.0, "HEXA20": 8.0, "PENTA6": 1.0}
+    volume = {"HEXA8": 8.0, "HEXA20": 8.0, "PENTA6": 1.0, "PENTA15": 1.0}
     expected = 3.0 * volume.get(kind, 1 / 6 if kind.startswith("TETRA") else 1 / 3)
     assert block.volume()[0] * 3.0 == pytest.approx(expected)
     unit = np.tile([0.0, 1.0, 0.0], len(natural))
     assert unit @ mass @ unit == pytest.approx(expected)
-    assert np.linalg.eigvalsh(mass)[0] > 0.0
+    least = np.linalg.eigvalsh(mass)[0]
+    assert least >= 0.0
+    # Lumped quadratic elements have nothing at their corners.
+    assert least > 0.0 or (not coupled and shape.nodes > shape.corners)
 
 
 @pytest.mark.parametrize("kind", sorted(NATURAL))
@@ -237,6 +254,125 @@ def test_no_density_is_no_mass(kind):
     shape, natural = NATURAL[kind]
     block = solids(shape, natural, np.arange(len(natural))[None])
     assert np.array_equal(block.mass(coupled=False), 0.0 * block.stiffness())
+
+
+@pytest.mark.parametrize("kind", ["HEXA20", "PENTA15", "PYRAM13", "TETRA10"])
+def test_shape_functions_are_one_at_their_node_and_their_slopes_are_theirs(kind):
+    shape, natural = NATURAL[kind]
+    if kind.startswith("PYRAM"):  # natural coordinates of the collapsed cube
+        natural = 2.0 * natural - 1.0
+        rise = np.clip(natural[:, 2:], -1.0, 1.0 - 1e-9)
+        flat = natural[:, :2] / (0.5 * (1.0 - rise))
+        natural = np.c_[flat, natural[:, 2:]]
+    values = shape.values(natural)
+    np.testing.assert_allclose(values, np.eye(len(natural)), atol=1e-8)
+    at, step = np.full((1, 3), 0.2), 1e-6
+    for k in range(3):
+        ahead = shape.values(at + step * np.eye(3)[k])
+        behind = shape.values(at - step * np.eye(3)[k])
+        slope = shape.derivatives(at)[0, k]
+        np.testing.assert_allclose((ahead - behind)[0] / (2 * step), slope, atol=1e-8)
+
+
+def test_lumped_mass_of_a_box_is_that_of_msc():
+    """8, 11 and 23 of 168 on the middles of edges of 2.5, 5 and 10; none at corners."""
+    size = np.array([2.5, 5.0, 10.0])
+    block = solids(HEXA20, 0.5 * HEX20_POINTS * size, np.arange(20)[None], rho=1.0)
+    shares = np.diag(block.mass(coupled=False)[0])[::3] / size.prod()
+    along = np.argmax(HEX20_POINTS[8:] == 0.0, axis=1)
+    np.testing.assert_allclose(shares[:8], 0.0, atol=1e-15)
+    np.testing.assert_allclose(168 * shares[8:], np.array([8, 11, 23])[along])
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    kind=st.sampled_from(["HEXA20", "PENTA15", "PYRAM13", "TETRA10"]),
+    seed=st.integers(0, 10**6),
+)
+def test_lumped_mass_knows_no_direction_and_no_size(kind, seed):
+    shape, natural = NATURAL[kind]
+    rng = np.random.default_rng(seed)
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    moved = 3.0 * natural @ (turn * np.sign(np.linalg.det(turn))).T + rng.normal(size=3)
+    masses = rng.uniform(0.1, 1.0, (1, shape.nodes))
+    one = lumped_mass(natural[None], masses, shape.corners)
+    np.testing.assert_allclose(one, lumped_mass(moved[None], masses, shape.corners))
+    assert one.sum() == pytest.approx(masses.sum())
+
+
+def test_axes_of_a_right_angled_prism_favour_no_side():
+    r, s, height = np.eye(3)[0], np.array([1.0, 1.0, 0.0]), np.eye(3)[2]
+    axes = penta_axes(np.stack([r, s, height])[None])[0]
+    angle = np.degrees(np.arctan2(axes[0, 1], axes[0, 0]))
+    assert angle == pytest.approx(-15.0)
+
+
+@pytest.mark.parametrize("kind", ["HEXA20", "PENTA15", "TETRA10", "PYRAM13"])
+def test_stiffness_turns_with_the_element(kind):
+    shape, natural = NATURAL[kind]
+    rng = np.random.default_rng(5)
+    xyz = natural + 0.05 * rng.uniform(-1, 1, natural.shape) * np.ptp(natural, axis=0)
+    turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+    turn = turn * np.sign(np.linalg.det(turn))
+    conn = np.arange(len(xyz))[None]
+    here = solids(shape, xyz, conn).stiffness()[0]
+    there = solids(shape, xyz @ turn.T, conn).stiffness()[0]
+    whole = np.kron(np.eye(len(xyz)), turn)
+    np.testing.assert_allclose(
+        there, whole @ here @ whole.T, atol=1e-9 * abs(here).max()
+    )
+
+
+_CUBE = """\
+SOL 101
+CEND
+SPC = 1
+LOAD = 2
+DISP = ALL
+BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,0.,0.,1.
+GRID,6,,1.,0.,1.
+GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.
+CHEXA,1,1,1,2,3,4,5,6
+,7,8
+MAT1,1,1.+6,,.25
+SPC1,1,123,1,4,5,8
+FORCE,2,2,,1.,0.,0.,1.
+PSOLID,1,1,,{0},{1},{2}
+ENDDATA
+"""
+
+
+@pytest.mark.parametrize(
+    ("fields", "order"), [(("TWO", "", "FULL"), 2), (("3", "GRID", "1"), 3)]
+)
+def test_psolid_chooses_the_integration(fields, order):
+    text = _CUBE.format(*fields)
+    corner = run(text)["static/1/displacement"][6, :3]
+    xyz = 0.5 * (HEX_CORNERS + 1.0)
+    stiffness = hexa8_full(xyz[None], isotropic_solid(E, NU)[None], order=order)
+    free = np.repeat(xyz[:, 0] > 0.0, 3)
+    load = np.zeros(24)
+    load[5] = 1.0
+    u = np.zeros(24)
+    u[free] = np.linalg.solve(stiffness.stiffness[0][free][:, free], load[free])
+    np.testing.assert_allclose(corner, u[18:21], rtol=1e-9)
+
+
+def test_what_psolid_asks_in_vain_is_said(tmp_path):
+    path = tmp_path / "cube.bdf"
+    path.write_text(_CUBE.format("THREE", "GAUSS", ""))
+    notices = solid_notices(read_deck(path))
+    assert len(notices) == 2
+    assert "IN 'THREE' with ISOP '' is not done for CHEXA with 8 nodes" in notices[0]
+    assert "STRESS 'GAUSS' is not done" in notices[1]
+    path.write_text(_CUBE.format("BUBBLE", "GRID", "REDUCED"))
+    assert solid_notices(read_deck(path)) == []
 
 
 def test_one_row_of_bricks_bends_like_a_beam():
