@@ -8,9 +8,11 @@ import numpy.typing as npt
 from pydrake.systems.framework import Context
 
 from drake_landing.case.scenario import (
+    AnyProfile,
     Bump,
     Measured,
     Ramp,
+    Roughness,
     RunwaySection,
     Scenario,
     WaveTrain,
@@ -30,10 +32,10 @@ from drake_landing.landing.initial_state import (
 )
 from drake_landing.landing.lift import STANDARD_GRAVITY, Lift, decaying
 from systems.airframe.modal_body import ModalBody
+from systems.runway.roughness import rough_tracks
 from systems.runway.runway import Runway
 from systems.runway.runway_profile import (
     CosineBump,
-    MeasuredProfile,
     Profile,
     Step,
     Waves,
@@ -145,21 +147,51 @@ def runway_of(section: RunwaySection, origin: tuple[float, float] = (0, 0)) -> R
     Raises:
         ValueError: a value is out of range.
     """
+    left, right, spacing = _tracks(section.profile)
+    x, y = origin
     return Runway(
-        profile=_profile(section.profile) if section.profile else None,
+        profile=left,
+        right=right,
+        track_spacing=spacing or _SPACING,
+        crown=section.crown,
         surface=section.surface,
         friction_factor=section.friction_factor,
-        origin=origin,
+        # The aircraft flies toward -x, starboard is +y.
+        origin=(x, y - section.offset),
     )
 
 
-def _profile(data: Bump | WaveTrain | Ramp | Measured) -> Profile:
+_SPACING = 7.6  # m, of the main gears of a medium transport; where it has no effect
+
+
+def _tracks(
+    data: AnyProfile | None,
+) -> tuple[Profile | None, Profile | None, float | None]:
+    """Left and right track and their spacing (m); one track is for all wheels."""
+    if isinstance(data, Roughness):
+        tracks = rough_tracks(
+            data.density,
+            seed=data.seed,
+            length=data.length,
+            start=data.start,
+            wavelengths=data.wavelengths,
+            run_in=data.run_in,
+            track_spacing=data.track_spacing,
+        )
+        if not data.track_spacing:
+            return tracks[0], None, None
+        return *tracks, data.track_spacing
+    if isinstance(data, Measured):
+        found = data.tracks
+        return found[0], found[1] if len(found) == 2 else None, data.track_spacing
+    return _profile(data) if data else None, None, None
+
+
+def _profile(data: Bump | WaveTrain | Ramp) -> Profile:
     if isinstance(data, Bump):
         return CosineBump(height=data.height, length=data.length, start=data.start)
     if isinstance(data, WaveTrain):
         return Waves(
             amplitude=data.amplitude, wavelength=data.wavelength, start=data.start
         )
-    if isinstance(data, Ramp):
-        return Step(height=data.height, ramp=data.ramp, start=data.start)
-    return MeasuredProfile.from_file(data.file)
+    return Step(height=data.height, ramp=data.ramp, start=data.start)

@@ -4,8 +4,8 @@ A measured profile, a 1-cosine bump, waves, a step with a smooth ramp. All have 
 continuous slope, which the nearest-point contact of `runway` needs.
 """
 
-import csv
 import math
+import re
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -163,33 +163,6 @@ class MeasuredProfile:
         object.__setattr__(self, "height", h)
         object.__setattr__(self, "_slope", (0.0, *inner, 0.0))
 
-    @classmethod
-    def from_file(cls, path: str | Path) -> "MeasuredProfile":
-        """Reads a CSV file of two columns, distance and height in m.
-
-        A first line that is not numbers is taken as the heading.
-
-        Raises:
-            ValueError: a line cannot be read; the message names file and line.
-        """
-        rows: list[tuple[float, float]] = []
-        with open(path, newline="", encoding="utf-8") as file:
-            for number, row in enumerate(csv.reader(file), start=1):
-                if not row or row[0].lstrip().startswith("#"):
-                    continue
-                try:
-                    rows.append((float(row[0]), float(row[1])))
-                except (ValueError, IndexError):
-                    if number == 1:
-                        continue
-                    raise ValueError(
-                        f"{path}, line {number}: found {','.join(row)!r}, expected "
-                        "distance and height in m"
-                    ) from None
-        if len(rows) < 2:
-            raise ValueError(f"{path}: {len(rows)} points, expected two or more")
-        return cls(distance=[r[0] for r in rows], height=[r[1] for r in rows])
-
     @property
     def max_curvature(self) -> float:
         ends = [0.0]
@@ -217,3 +190,70 @@ class MeasuredProfile:
             m0 + u * (2.0 * c2 + 3.0 * u * c3),
             2.0 * c2 + 6.0 * u * c3,
         )
+
+
+FOOT = 0.3048
+"""m"""
+
+
+def measured_tracks(
+    path: str | Path, *, unit: float = 1.0, start: float = 0.0, backwards: bool = False
+) -> tuple[MeasuredProfile, ...]:
+    """Reads a file of two columns, distance and height, or of three: distance, heights
+    of the left and of the right track.
+
+    Columns are separated by commas, semicolons or blanks. A first line that is not
+    numbers is taken as the heading; what follows # is a remark.
+
+    Args:
+        path: of the file.
+        unit: of both, m; see FOOT.
+        start: m, added to the distances.
+        backwards: the runway is travelled from its last point to the first one.
+
+    Returns:
+        One profile, or left and right.
+
+    Raises:
+        ValueError: a line cannot be read; the message names file and line.
+    """
+    rows: list[list[float]] = []
+    with open(path, encoding="utf-8-sig", errors="replace") as file:
+        for number, line in enumerate(file, start=1):
+            text = line.split("#")[0].strip()
+            if text:
+                row = _numbers(text, f"{path}, line {number}", first=number == 1)
+                rows += [row] if row else []
+                if row and len(row) != len(rows[0]):
+                    raise ValueError(
+                        f"{path}, line {number}: found {len(row)} columns, expected "
+                        f"{len(rows[0])} as before"
+                    )
+    if len(rows) < 2:
+        raise ValueError(f"{path}: {len(rows)} points, expected two or more")
+    if backwards:
+        last = rows[-1][0]
+        sides = slice(None, 0, -1)  # left and right change sides
+        rows = [[last - row[0], *row[sides]] for row in reversed(rows)]
+    distance = [start + unit * row[0] for row in rows]
+    try:
+        return tuple(
+            MeasuredProfile(distance=distance, height=[unit * row[i] for row in rows])
+            for i in range(1, len(rows[0]))
+        )
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from None
+
+
+def _numbers(text: str, place: str, first: bool) -> list[float]:
+    """Two or three of them; none of a heading."""
+    try:
+        row = [float(word) for word in re.split(r"[,;\s]+", text)]
+    except ValueError:
+        row = []
+    if len(row) in (2, 3) or (first and not row):
+        return row
+    raise ValueError(
+        f"{place}: found {text!r}, expected distance and height, or distance and the "
+        "heights of the left and of the right track"
+    )

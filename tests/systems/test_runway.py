@@ -9,7 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from systems.runway.runway import SURFACE_FRICTION, Runway
-from systems.runway.runway_profile import CosineBump, MeasuredProfile, Step, Waves
+from systems.runway.runway_profile import (
+    CosineBump,
+    MeasuredProfile,
+    Step,
+    Waves,
+    measured_tracks,
+)
 from systems.tire.tire_law import TireLaw, TireParameters
 
 MEASURED = MeasuredProfile(
@@ -107,13 +113,13 @@ def test_surfaces_scale_friction():
 def test_measured_profile_is_read_from_a_file(tmp_path):
     path = tmp_path / "profile.csv"
     path.write_text("distance,height\n0,0\n2,0.03\n# joint\n3.5,0.01\n")
-    assert MeasuredProfile.from_file(path).distance == (0.0, 2.0, 3.5)
+    assert measured_tracks(path)[0].distance == (0.0, 2.0, 3.5)
     path.write_text("0,0\n2\n")
     with pytest.raises(ValueError, match="line 2: found '2', expected distance"):
-        MeasuredProfile.from_file(path)
+        measured_tracks(path)
     path.write_text("")
     with pytest.raises(ValueError, match="0 points, expected two or more"):
-        MeasuredProfile.from_file(path)
+        measured_tracks(path)
 
 
 @pytest.mark.parametrize(
