@@ -7,6 +7,7 @@ from pydantic import Field
 from drake_landing.case.section import Section, number
 
 Range = tuple[float, float]
+Span = tuple[int, int]
 
 
 class Within(Section):
@@ -52,6 +53,22 @@ class Beam(Section):
     )
 
 
+class Component(Section):
+    """What belongs to a component: elements that fit any of these."""
+
+    properties: tuple[int | Span, ...] = Field(
+        default=(), description="property ids, or [first, last]"
+    )
+    elements: tuple[int | Span, ...] = Field(
+        default=(), description="element ids, or [first, last]"
+    )
+    sets: tuple[int, ...] = Field(default=(), description="SET1 of element ids")
+    materials: tuple[int, ...] = Field(default=(), description="material ids")
+    files: tuple[str, ...] = Field(
+        default=(), description="names of files whose elements they are, INCLUDE"
+    )
+
+
 class Panel(Section):
     """A point between two stiff ones, e.g. in the middle of a frame bay."""
 
@@ -71,6 +88,12 @@ class Parts(Section):
     allowables: dict[int, float] = Field(
         default={},
         description="material id -> allowable stress, Pa; otherwise ST of MAT1",
+    )
+    components: dict[str, Component] = Field(
+        default={},
+        description="name -> what belongs to it; of several that fit an element the "
+        "first has it. The rest is named by groups of the deck's program, banners, "
+        "INCLUDE files, kinds of elements",
     )
     beams: tuple[Beam, ...] = Field(
         default=(),

@@ -9,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from drake_landing.case import parts as settings
+from drake_landing.parts.components import members
 from drake_landing.show.comments import KINDS, component_names, read_names
 from fem.deck.grids import grids_of
 from fem.deck.records import CARDS, TABLES, topologies
@@ -19,6 +21,9 @@ Int64 = npt.NDArray[np.int64]
 
 # Columns that name the material of a shell's sheet, the decisive one first.
 _SHEET = ("mid2", "mid1")
+
+
+LAMINATES = "laminates"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,7 +38,7 @@ class Inventory:
     """
 
     elements: pd.DataFrame
-    kinds: ClassVar[frozenset[str]] = frozenset(KINDS.values())
+    kinds: ClassVar[frozenset[str]] = frozenset(KINDS.values()) | {LAMINATES}
 
     @property
     def components(self) -> list[str]:
@@ -49,11 +54,16 @@ class Inventory:
         return self.elements.set_index("id")
 
 
-def inventory(structure: Structure, allowables: Mapping[int, float]) -> Inventory:
+def inventory(
+    structure: Structure,
+    allowables: Mapping[int, float],
+    components: Mapping[str, settings.Component] | None = None,
+) -> Inventory:
     """Elements of a structure.
 
     Args:
         structure: of the deck.
+        components: by name, of the case; what they leave is named by the deck.
         allowables: material id -> Pa; for others ST of MAT1, where it is given.
     """
     cards = structure.deck.cards
@@ -68,8 +78,14 @@ def inventory(structure: Structure, allowables: Mapping[int, float]) -> Inventor
     elements = pd.concat([_placed(structure, t) for t in tables], ignore_index=True)
     names = read_names(elements.file.unique())
     elements["component"] = component_names(names, elements)
+    laminates = elements.pid.isin(cards["PCOMP"].pid) & elements.component.isin(
+        Inventory.kinds
+    )
+    elements.loc[laminates, "component"] = LAMINATES
     of_property = _materials(cards)
     elements["material"] = [of_property.get(pid, 0) for pid in elements.pid]
+    for name, own in members(structure, elements, components or {}).items():
+        elements.loc[own, "component"] = name
     known = _strengths(cards) | dict(allowables)
     elements["allowed"] = [known.get(mid, np.nan) for mid in elements.material]
     elements = elements.drop(columns=["file", "line"]).sort_values("id")

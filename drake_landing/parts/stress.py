@@ -5,7 +5,9 @@
                 membrane has resultants that are not its own
     laminates   von Mises of the isotropic plies; where there are none, the largest
                 principal stress of any ply
-    bars        largest magnitude of the direct stress at the stress points, or axial
+    bars        largest magnitude of the direct stress at the stress points, or axial;
+                where no stress points are given the axial stress is not the worst of a
+                bar that bends: `axial_only`
     solids      von Mises at the centre
 
 Largest and smallest are the principal or direct stresses. All of it is a sparse matrix
@@ -13,7 +15,7 @@ on displacements, then a few array operations.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 
 import numpy as np
@@ -24,6 +26,8 @@ import scipy.sparse as sp
 from drake_landing.parts.inventory import sheet_material
 from fem.algebra.sparse_products import shape_of
 from fem.elements.block import Detail, ElementBlock, Kind
+from fem.elements.lines.bar import Bar
+from fem.elements.lines.beam import Beam
 from fem.elements.shells.shell import Shell
 from fem.elements.shells.shell_recovery import PlyRecovery
 from fem.elements.stress_measures import plane_von_mises
@@ -79,9 +83,20 @@ class StressPart:
 
 @dataclass(frozen=True, kw_only=True)
 class Stresses:
-    """Stresses of all elements of a structure that have any."""
+    """Stresses of all elements of a structure that have any.
+
+    Attributes:
+        parts: elements of one kind each.
+        without_points: ids, see `without_stress_points`.
+    """
 
     parts: tuple[StressPart, ...]
+    without_points: Int64 = field(default_factory=lambda: np.zeros(0, np.int64))
+
+    @cached_property
+    def axial_only(self) -> npt.NDArray[np.bool_]:
+        """(e,) bars that bend and of which the axial stress alone is known."""
+        return np.isin(self.id, self.without_points)
 
     @cached_property
     def id(self) -> Int64:
@@ -105,7 +120,31 @@ def stresses(structure: Structure) -> Stresses:
             found.append(make(structure, block))
         else:
             found += _printed(structure, block)
-    return Stresses(parts=tuple(found))
+    return Stresses(parts=tuple(found), without_points=without_stress_points(structure))
+
+
+def without_stress_points(structure: Structure) -> Int64:
+    """Ids of bars that bend and whose property gives no stress points (C, D, E, F)."""
+    found = [np.zeros(0, np.int64)]
+    for block in structure.blocks:
+        if isinstance(block, Bar | Beam):
+            points = block.section.recovery.reshape(len(block.id), -1)
+            bends = block.end_stiffness[:, (4, 5), (4, 5)].any(axis=1)
+            found.append(block.id[bends & ~points.any(axis=1)])
+    return np.concatenate(found)
+
+
+def stress_point_notices(structure: Structure) -> list[str]:
+    """A line that says of which bars the axial stress alone is known, if any."""
+    count = len(without_stress_points(structure))
+    if not count:
+        return []
+    return [
+        f"{count} bar{'s' * (count > 1)} without stress recovery points: only the "
+        "axial stress is known, which leaves out bending and is no part of the worst "
+        "stresses; look at the section loads, or give C, D, E, F on PBAR (PBEAM), or "
+        "shapes by PBARL (PBEAML)"
+    ]
 
 
 def _sheets(structure: Structure, block: Shell) -> StressPart:

@@ -60,7 +60,7 @@ class StressWatch:
             None if about is None else part.operator @ about for part in stresses.parts
         ]
         self._group = group
-        self._weight = _weights(group, allowed)
+        self._weight = np.where(stresses.axial_only, 0.0, _weights(group, allowed))
         self._highest: dict[int, float] = {}
         self.worst: dict[int, Snapshot] = {}
         self.equivalent = self.time = self.largest = self.smallest = np.zeros((0, 0))

@@ -7,16 +7,22 @@ from drake_landing.parts.cuts import NAMED, envelope_table
 from drake_landing.parts.watch import PartsFound
 
 WORST = ["component", "rank", "id", "card", "material", "equivalent", "time",
-         "largest", "smallest", "x", "y", "z", "allowed", "margin"]  # fmt: skip
+         "largest", "smallest", "x", "y", "z", "allowed", "margin",
+         "measure"]  # fmt: skip
+AXIAL = "axial stress only"
 
 
 def with_margin(stress: pd.DataFrame, ultimate: float) -> pd.DataFrame:
-    """Adds the margin of safety, allowed over (ultimate × stress) less 1, or NaN."""
+    """Adds the margin of safety, allowed over (ultimate × stress) less 1, or NaN.
+
+    Where the axial stress alone is known there is none.
+    """
     factored = ultimate * stress.equivalent.to_numpy(float)
     allowed = stress.allowed.to_numpy(float)
+    known = (factored > 0.0) & ~stress.axial_only.to_numpy(bool)
     with np.errstate(divide="ignore", invalid="ignore"):
         margin = allowed / factored - 1.0
-    return stress.assign(margin=np.where(factored > 0.0, margin, np.nan))
+    return stress.assign(margin=np.where(known, margin, np.nan))
 
 
 def worst_elements(
@@ -25,7 +31,8 @@ def worst_elements(
     """The elements of each component with the highest stress over its allowable.
 
     Components with known margins first, the smallest ahead. Where no allowable is
-    known the stress itself decides.
+    known the stress itself decides. Bars of which the axial stress alone is known are
+    left out: see `axial_elements`.
 
     Args:
         stress: of a load case, see `CaseFound.stress`.
@@ -35,8 +42,18 @@ def worst_elements(
     Returns:
         Columns `WORST`; Pa, s, m.
     """
-    rows = with_margin(stress, ultimate)
-    rows = rows[rows.equivalent > 0.0]
+    return _ranked(with_margin(pd.DataFrame(stress[~stress.axial_only]), ultimate), count)
+
+
+def axial_elements(stress: pd.DataFrame, count: int = 10) -> pd.DataFrame:
+    """Bars of which the axial stress alone is known, as `worst_elements`."""
+    return _ranked(with_margin(pd.DataFrame(stress[stress.axial_only]), 1.0), count)
+
+
+def _ranked(rows: pd.DataFrame, count: int) -> pd.DataFrame:
+    rows = pd.DataFrame(rows[rows.equivalent > 0.0])
+    measure = np.where(rows.axial_only, AXIAL, "equivalent stress")
+    rows = rows.assign(measure=measure)
     use = rows.equivalent / rows.allowed
     rows = rows.assign(use=use.fillna(-1.0))
     rows = rows.sort_values(["use", "equivalent"], ascending=False, kind="stable")
@@ -47,10 +64,16 @@ def worst_elements(
     return pd.DataFrame(rows, columns=WORST).reset_index(drop=True)
 
 
+def stacked(*tables: pd.DataFrame) -> pd.DataFrame:
+    """Tables of like columns under each other; empty ones do not change the types."""
+    rows = [table for table in tables if len(table)]
+    return pd.concat(rows, ignore_index=True) if rows else tables[0]
+
+
 def component_table(stress: pd.DataFrame, ultimate: float) -> pd.DataFrame:
     """The worst element of each component, and the number of its elements."""
     worst = worst_elements(stress, ultimate, 1)
-    counts = stress.component.value_counts()
+    counts = stress[~stress.axial_only].component.value_counts()
     return worst.assign(elements=counts.loc[worst.component].to_numpy())
 
 

@@ -34,7 +34,8 @@ class CaseFound:
         sections: beam -> (t, n, 6) section loads, columns `COMPONENTS`, B.
         acceleration: grid -> (t, 3), B, m/s².
         stress: one row per element: `id`, `component`, `material`, `x`, `y`, `z`,
-            `allowed`, `equivalent` and its `time`, `largest`, `smallest` (Pa, s).
+            `allowed`, `equivalent` and its `time`, `largest`, `smallest` (Pa, s);
+            `axial_only`: of a bar that bends the axial stress alone is known.
     """
 
     sections: Mapping[str, Float64]
@@ -228,7 +229,11 @@ class PartsWatch:
     ) -> pd.DataFrame:
         """See `CaseFound.stress`; arrays (e,) in the order of the stresses."""
         return self._rows.reset_index().assign(
-            equivalent=equivalent, time=time, largest=largest, smallest=smallest
+            equivalent=equivalent,
+            time=time,
+            largest=largest,
+            smallest=smallest,
+            axial_only=self.stresses.axial_only,
         )
 
     def _imbalance(self, loads: AttachmentLoads) -> tuple[float, float]:

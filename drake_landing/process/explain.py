@@ -25,6 +25,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.settling import LIMIT
+from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import StepError, expected_step_error
@@ -83,6 +84,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         remarks = (*remarks, *step.remarks)
     notices = (*aircraft.notices, *map(case.places.named, remarks))
     notices += (*structure.notices, *structure.damping_notices)
+    notices += tuple(stress_point_notices(structure))
     return "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
 
 

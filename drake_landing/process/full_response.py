@@ -153,7 +153,9 @@ def _watch(
 ) -> PartsWatch:
     """What is looked at in the transient."""
     cutter = Cutter(airframe.structure)
-    elements = inventory(airframe.structure, case.parts.allowables)
+    elements = inventory(
+        airframe.structure, case.parts.allowables, case.parts.components
+    )
     return PartsWatch(
         cutter,
         places_of(

@@ -27,6 +27,7 @@ from drake_landing.landing.history import LandingHistory, gear_peaks
 from drake_landing.landing.run import build_landing, fast_mode_notices, fly
 from drake_landing.landing.settling import LIMIT, Settling, swing_of
 from drake_landing.parts import tables
+from drake_landing.parts.stress import stress_point_notices
 from drake_landing.parts.watch import PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import FullResponse, full_response
@@ -142,6 +143,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
             *airframe.notices,
             *map(case.places.named, (*remarks, *step.remarks)),
             *fast_mode_notices(airframe.body, case.simulation),
+            *stress_point_notices(structure),
         ),
         stages=stages,
     )
@@ -297,10 +299,11 @@ def write_files(result: ProcessResult, out: Path) -> None:
         parts=parts,
     )
     write_csv(out / "comparison.csv", result.comparison)
+    worst = tables.worst_elements(parts.judged, ultimate)
     extremes = {
         "gears": result.gears,
         "worst_elements": worst_elements(result.envelopes, 10),
-        "worst_stresses": tables.worst_elements(parts.judged, ultimate),
+        "worst_stresses": tables.stacked(worst, tables.axial_elements(parts.judged)),
         "section_loads": tables.section_envelopes(parts),
     }
     for name, table in extremes.items():

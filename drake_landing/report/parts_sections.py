@@ -53,8 +53,10 @@ def parts_sections(
         pictures: PNG files and what they show.
         unable: why there are none.
     """
-    yield _stresses(result, pictures, unable)
-    yield _section_loads(result)
+    stresses, sections = _stresses(result, pictures, unable), _section_loads(result)
+    # Of sticks without stress points the section loads tell more.
+    few = result.parts.judged.axial_only.any()
+    yield from (sections, stresses) if few else (stresses, sections)
     if result.parts.places.panels:
         yield _panels(result)
     yield _equipment(result)
@@ -68,8 +70,10 @@ def _stresses(
     factor, total = result.case.parts.ultimate_factor, result.parts.total
     stress = result.parts.judged
     components = tables.component_table(stress, factor)
-    alone = result.parts.landing.stress.groupby("component").equivalent.max()
+    landing = result.parts.landing.stress
+    alone = landing[~landing.axial_only].groupby("component").equivalent.max()
     components["increment"] = alone.loc[components.component].to_numpy()
+    axial = tables.axial_elements(stress)
     worst = tables.worst_elements(stress, factor)
     blocks = [png_block(path, caption) for path, caption in pictures]
     unknown = {"increment"} if total is None else set()
@@ -108,13 +112,42 @@ def _stresses(
         else "The stress of steady flight is included; the increment alone stands "
         "beside it. "
     )
-    if not len(components):
+    if len(axial):
+        blocks.append(_axial(axial))
+        bars = int(stress.axial_only.sum())
+        text += (
+            f"{bars} bars give no stress recovery points: their axial stress, which "
+            "leaves out bending, stands in a table of its own and is no part of the "
+            "worst stresses. Their section loads tell what they carry; C, D, E, F on "
+            "PBAR (PBEAM), or shapes by PBARL (PBEAML), give their stresses. "
+        )
+    elif not len(components):
         text += "The model has no element with stresses. "
     return Section(
         id="parts",
         title="What the parts see: stresses",
         text=text + unable,
         blocks=blocks,
+    )
+
+
+def _axial(axial: pd.DataFrame) -> Block:
+    heads = {
+        "component": "component",
+        "rank": "no.",
+        "id": "element",
+        "equivalent": "axial stress, magnitude MPa",
+        "time": "time s",
+        "x": "x m",
+        "y": "y m",
+        "z": "z m",
+    }
+    return table_block(
+        _mega(axial),
+        heads,
+        _FORMATS,
+        "Bars without stress recovery points: axial stress only, bending not included",
+        fold=True,
     )
 
 

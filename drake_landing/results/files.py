@@ -12,7 +12,8 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
                         to (m), value (t, n, 6): section loads; attributes outward,
                         axis, and the directions (3,) of shear, bending and torsion; B
     /parts/acceleration/<grid>   (t, 3), B; /parts/time
-    /parts/stress       id, equivalent, time, largest, smallest of each element
+    /parts/stress       id, equivalent, time, largest, smallest of each element;
+                        with axial_only these leave out bending
     /airframe           frequency_hz, mass, cg, node_id
     /comparison, /gears   one dataset per column of the CSV tables
 """
@@ -165,6 +166,7 @@ def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
     stress["id"] = table["id"].to_numpy(np.int64)  # none where there is no element
     for column in ("equivalent", "time", "largest", "smallest"):
         stress[column] = table[column].to_numpy(float)
+    stress["axial_only"] = table.axial_only.to_numpy(bool)
 
 
 def _write_airframe(group: h5py.Group, body: ModalBody) -> None:

@@ -158,8 +158,9 @@ def _stresses(found: PartsFound, slices: Slices) -> Iterator[Row]:
             pd.Series(slices.time[equivalent.argmax(axis=0)]),
         ),
     }
-    for name in hybrid.stress.component.value_counts().index:
-        own = np.flatnonzero(component == name)
+    known = ~hybrid.stress.axial_only.to_numpy(bool)
+    for name in hybrid.stress.component[known].value_counts().index:
+        own = np.flatnonzero((component == name) & known)
         for practice, (stress, time) in tables.items():
             at = own[int(np.argmax(stress.to_numpy()[own]))]
             value, when = float(stress.iloc[at]), float(time.iloc[at])

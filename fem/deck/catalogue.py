@@ -25,7 +25,7 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
             "MATS1 NLPARM NLPCI TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 TABLEST TEMP "
             "TEMPD TEMPP1 TEMPP3 TEMPRB TSTEPNL",
         ),
-        ("Aeroelasticity", "MONPNT1 MONPNT2 MONPNT3 SET1 SET2 SET3 SPLINE1"),
+        ("Aeroelasticity", "MONPNT1 MONPNT2 MONPNT3 SET2 SET3 SPLINE1"),
     )
 }
 WITHOUT_EFFECT = frozenset().union(*PASSED_OVER.values())

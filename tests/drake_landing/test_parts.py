@@ -18,8 +18,12 @@ from drake_landing.parts.slices import (
     slice_loads,
     static_slices,
 )
-from drake_landing.parts.stress import stresses
-from drake_landing.parts.tables import component_table, worst_elements
+from drake_landing.parts.stress import stress_point_notices, stresses
+from drake_landing.parts.tables import (
+    axial_elements,
+    component_table,
+    worst_elements,
+)
 from drake_landing.parts.watch import PartsFound, PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.practices import HYBRID, RIGID, STATIC, compare_practices
@@ -250,8 +254,26 @@ def test_margins_come_from_the_allowable(found: PartsFound) -> None:
     row = worst.iloc[0]
     assert row.allowed == 1e8
     assert row.margin == pytest.approx(1e8 / (1.5 * row.equivalent) - 1.0)
+    assert not found.landing.stress.set_index("id").axial_only[row.id]
     ten = worst_elements(found.landing.stress, 1.5, 3)
     assert (ten.groupby("component").equivalent.diff().dropna() <= 0.0).all()
+
+
+def test_bars_without_stress_points_are_no_worst_elements(
+    structure: Structure, found: PartsFound
+) -> None:
+    """The wings carry most and give no stress points, the fuselage does."""
+    table = found.landing.stress.set_index("id")
+    pid = structure.deck.cards["CBAR"].set_index("eid").pid
+    assert (table.axial_only == (pid.loc[table.index] != 1)).all()
+    worst = worst_elements(found.landing.stress, 1.5, 99)
+    assert set(pid.loc[worst.id]) == {1}
+    axial = axial_elements(found.landing.stress, 99)
+    assert set(pid.loc[axial.id]) <= {2, 3}
+    assert axial.margin.isna().all()
+    assert len(axial)
+    (text,) = stress_point_notices(structure)
+    assert text.startswith(f"{int(table.axial_only.sum())} bars without")
 
 
 def test_practices(

@@ -52,7 +52,7 @@ def test_a_case_names_its_places(structure: Structure) -> None:
     places = found(structure, case.parts)
     wing, tail = places.beams
     assert [wing.name, tail.name] == [
-        *("left wing: CBAR property 2, port", "left wing: CBAR property 3, port")
+        *(f"left wing: part to port at x = {x} m" for x in ("8.00", "16.00"))
     ]
     assert wing.stations.tolist() == [-1.0, -3.0, -5.0, -7.0]
     assert tail.stations.tolist() == [-1.0]
@@ -118,3 +118,45 @@ def test_steady_flight_of_the_reference_aircraft_is_balanced(tmp_path: Path) -> 
     rows = model.operator([19002], (1, 2, 3), frame="basic") @ still.motion
     assert rows[2, 0] == pytest.approx(9.80665, rel=0.01)
     assert abs(rows[1, 0]) < 1e-6
+
+
+COMPONENTS = """
+parts:
+  components:
+    tail: {elements: [[112, 118], 119], sets: [7]}
+    wing: {properties: [2]}
+    rest: {materials: [1], files: [tiny_aircraft.bdf]}
+"""
+
+
+def test_a_case_names_components(tmp_path: Path) -> None:
+    deck = HERE.joinpath("tiny_aircraft.bdf").read_text()
+    path = tmp_path / "tiny_aircraft.bdf"
+    path.write_text(deck.replace("ENDDATA", "SET1,7,101,THRU,102\nENDDATA"))
+    structure = Structure.from_deck(read_deck(path))
+    parts = parse_case(TEXT + COMPONENTS, folder=HERE).parts
+    rows = inventory(structure, {}, parts.components).elements.set_index("id")
+    assert set(rows.component) == {"tail", "wing", "rest"}
+    assert set(rows.component[[101, 102]]) == {"tail"}
+    bars = structure.deck.cards["CBAR"].set_index("eid")
+    wing = bars.index[(bars.pid == 2)]
+    assert set(rows.component[wing]) <= {"wing", "tail"}
+    beams = placed(structure, parts, np.eye(3), {}, None).beams
+    assert {b.name for b in beams} >= {"part to starboard at x = 8.00 m"}
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("properties: [2]", "properties: [22]", "wing.properties: found 22"),
+        ("sets: [7]", "sets: [7]", "found set 7, expected a SET1"),
+        ("[[112, 118], 119]", "[[912, 918]]", "tail.elements: found 912 to 918"),
+    ],
+)
+def test_components_that_are_not_there(
+    structure: Structure, old: str, new: str, said: str
+) -> None:
+    text = COMPONENTS if "sets" in old else COMPONENTS.replace(", sets: [7]", "")
+    parts = parse_case(TEXT + text.replace(old, new), folder=HERE).parts
+    with pytest.raises(InputError, match=said):
+        inventory(structure, {}, parts.components)

@@ -42,6 +42,12 @@ def add(f: Fields) -> Rows:
     return [{"sid": f.integer(1, "SID"), "sets": (*written, *between)}]
 
 
+def set1(f: Fields) -> Rows:
+    """SET1: ids and ranges; SKIN and the like are no ids."""
+    written, between = f.ids(2, "ID1")
+    return [{"sid": f.integer(1, "SID"), "ids": tuple(sorted({*written, *between}))}]
+
+
 def load(f: Fields) -> Rows:
     """LOAD and DLOAD."""
     pairs = [(f.real(k, "SCALE"), f.integer(k + 1, "LID")) for k in f.groups(3, 2)]

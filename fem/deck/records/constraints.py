@@ -56,6 +56,8 @@ RECORDS = (
     Card(name="BSET1", group=_SETS, read=lists.freedoms, table="ASET"),
     Card(name="BNDFIX", group=_SETS, fields=_FREEDOMS, table="ASET"),
     Card(name="BNDFIX1", group=_SETS, read=lists.freedoms, table="ASET"),
+    # Lists of grids or elements for what refers to them; nothing here checks which.
+    Card(name="SET1", group="Lists", read=lists.set1, more="sid:i ids:*"),
     Card(name="QSET", group=_SETS, fields=_FREEDOMS),
     Card(name="QSET1", group=_SETS, read=lists.freedoms, table="QSET"),
     # Partitioned superelements: SEBULK in the main section, grids joined by SECONCT.

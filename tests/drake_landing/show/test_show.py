@@ -11,7 +11,7 @@ import pytest
 
 from drake_landing.cli import app, guarded
 from drake_landing.reference.d150 import write_model
-from drake_landing.show.comments import component_names, read_names
+from drake_landing.show.comments import Names, component_names, read_names
 from drake_landing.show.mesh import RIGID, drawn_mesh
 from drake_landing.show.modes import shown_modes
 from drake_landing.show.viewer import viewer_data
@@ -43,7 +43,7 @@ def test_two_cubes_show_ten_outer_faces(tmp_path: Path) -> None:
     text = "PSOLID,7,1\nCHEXA,1,7,1,2,3,4,5,6\n,7,8\nCHEXA,2,7,2,9,10,3,6,11\n,12,7\n"
     (component,) = drawn_mesh(structure_of(tmp_path, CUBE + text)).components
     assert len(component.quads) == 10
-    assert component.name == "CHEXA property 7"
+    assert component.name == "solids"
 
 
 SHELLS = "CQUAD4,1,7,1,2,3,4\nCQUAD4,2,8,2,9,10,3\n"
@@ -71,14 +71,34 @@ def test_comments_name_components(tmp_path: Path, comments: str) -> None:
     assert found == {"part", "floor"}
 
 
-def test_many_nameless_properties_are_shown_by_element_type(tmp_path: Path) -> None:
+def test_hypermesh_moves_and_numbered_names(tmp_path: Path) -> None:
+    """Components by element ids; names that only number properties are none."""
+    path = tmp_path / "moved.bdf"
+    path.write_text(
+        '$HMNAME COMP        7"skin" 4\n$HMMOVE        7\n'
+        "$       1THRU       3       9\n"
+        "$ Femap Property 5 : PSHELL.5\n$ Simcenter Femap Property 6 : spar web\n"
+    )
+    import pandas as pd
+
+    rows = pd.DataFrame({"id": [1, 2, 3, 4, 9], "card": "CQUAD4", "line": 1})
+    rows = rows.assign(pid=[6, 6, 6, 5, 5], file=str(path))
+    names = component_names(read_names([str(path)]), rows)
+    assert names == ["skin", "skin", "skin", "sheets", "skin"]
+    rows.loc[0, "file"] = str(tmp_path / "outer_wing.inc")
+    rows.pid = [5, 5, 6, 5, 5]
+    names = component_names(Names(properties={6: "spar web"}), rows)
+    assert names == ["outer wing", "moved", "spar web", "moved", "moved"]
+
+
+def test_nameless_properties_are_shown_by_their_kind(tmp_path: Path) -> None:
     path = tmp_path / "nothing.bdf"
     path.write_text("GRID,1\n")
     import pandas as pd
 
     rows = pd.DataFrame({"card": "CQUAD4", "pid": range(1, 101), "line": 1})
     names = component_names(read_names([str(path)]), rows.assign(file=str(path)))
-    assert set(names) == {"CQUAD4"}
+    assert set(names) == {"sheets"}
 
 
 def test_modes_say_what_moves(con: Path) -> None:

@@ -152,8 +152,8 @@ def test_all_unsupported_cards_are_listed_at_once_and_can_be_ignored(read):
 
 
 def test_cards_without_effect_only_give_a_notice(read):
-    deck = read("PLOTEL,9,1,2\nSET1,5,1,2\nPARAM,POST,-1\nCBARAO,1,FR,.5")
-    assert any("CBARAO (1), SET1 (1)" in notice for notice in deck.notices)
+    deck = read("PLOTEL,9,1,2\nSET3,5,GRID,1,2\nPARAM,POST,-1\nCBARAO,1,FR,.5")
+    assert any("CBARAO (1), SET3 (1)" in notice for notice in deck.notices)
 
 
 def test_vendor_conm2_with_a_seventh_field_and_absolute_offset(read):
