@@ -42,7 +42,9 @@ def worst_elements(
     Returns:
         Columns `WORST`; Pa, s, m.
     """
-    return _ranked(with_margin(pd.DataFrame(stress[~stress.axial_only]), ultimate), count)
+    return _ranked(
+        with_margin(pd.DataFrame(stress[~stress.axial_only]), ultimate), count
+    )
 
 
 def axial_elements(stress: pd.DataFrame, count: int = 10) -> pd.DataFrame:
@@ -59,9 +61,9 @@ def _ranked(rows: pd.DataFrame, count: int) -> pd.DataFrame:
     rows = rows.sort_values(["use", "equivalent"], ascending=False, kind="stable")
     rows["rank"] = rows.groupby("component").cumcount() + 1
     order = {name: k for k, name in enumerate(dict.fromkeys(rows.component))}
-    rows = rows[rows["rank"] <= count]
-    rows = rows.assign(order=rows.component.map(order)).sort_values(["order", "rank"])
-    return pd.DataFrame(rows, columns=WORST).reset_index(drop=True)
+    rows = rows.assign(order=rows.component.map(order))
+    first = rows[rows["rank"] <= count].sort_values(["order", "rank"])
+    return pd.DataFrame(first, columns=WORST).reset_index(drop=True)
 
 
 def stacked(*tables: pd.DataFrame) -> pd.DataFrame:
