@@ -162,9 +162,10 @@ def _sheets(structure: Structure, block: Shell) -> StressPart:
     elastic = np.zeros((len(material), 3, 3))
     for mid in np.unique(material[known]):
         elastic[material == mid] = _plane_stress(moduli.loc[mid])
-    taken = _diagonal(np.repeat(known, 6).astype(float))
-    left = _diagonal(np.repeat(~known, 6).astype(float))
-    operator = taken @ (_blocks(np.repeat(elastic, 2, axis=0)) @ strain.operator)
+    count = shape_of(strain.operator)[0] // (3 * len(material))  # fibres of all points
+    taken = _diagonal(np.repeat(known, 3 * count).astype(float))
+    left = _diagonal(np.repeat(~known, 3 * count).astype(float))
+    operator = taken @ (_blocks(np.repeat(elastic, count, axis=0)) @ strain.operator)
     operator = operator + left @ stress.operator
     return _shell_part(structure, block, operator, np.ones(len(material), bool))
 

@@ -164,8 +164,7 @@ class Shell(DenseBlock):
         if self.property_card == "PCOMP":
             return self._plies(strain=True)
         resultant = self.resultants(corner=corner)
-        flexible = self._flexibility()[:, None]
-        plane = flexible @ resultant[:, :, :6]
+        plane = self.flexibility(corner=corner) @ resultant[:, :, :6]
         membrane, bent = plane[:, :, :3], plane[:, :, 3:]
         fibre = np.broadcast_to([0.0, -1.0], (len(self.id), 2))
         if not curvature:
@@ -195,11 +194,12 @@ class Shell(DenseBlock):
             return self.stresses(corner=detail.corner)
         return self.strains(corner=detail.corner, curvature=not detail.fibre)
 
-    def _flexibility(self) -> Float64:
-        """(e, 6, 6) pseudo-inverse of [A B; B D]: absent parts give no strain."""
-        return _flexibility(
-            self.section.membrane, self.section.coupling, self.section.bending
-        )
+    def flexibility(self, *, corner: bool = False) -> Float64:
+        """(e, 1, 6, 6) pseudo-inverse of [A B; B D]: absent parts give no strain.
+
+        One for each point, as in `resultants`, where the element axes turn.
+        """
+        return section_flexibility(self.section)[:, None]
 
     def _material_resultants(self) -> Float64:
         """(e, 8, 6 n) N, M and Q at the centre in material axes."""
@@ -261,6 +261,11 @@ def ply_map(found: ShellProperty, *, strain: bool = False) -> Float64:
         found.membrane[one], found.coupling[one], found.bending[one]
     )
     return found.laminate.recovery(flexible[0], strain=strain)
+
+
+def section_flexibility(section: ShellSection) -> Float64:
+    """(e, 6, 6), see `Shell.flexibility`."""
+    return _flexibility(section.membrane, section.coupling, section.bending)
 
 
 def _flexibility(a: Float64, b: Float64, d: Float64) -> Float64:

@@ -29,7 +29,7 @@ def read_shells(deck: "Deck", points: Points, card: str, corners: int) -> list[S
     rows = table(deck, card).sort_values("eid", ignore_index=True)
     if rows.empty:
         return []
-    _check_properties(deck, rows, card)
+    check_properties(deck, rows, card)
     properties = read_shell_properties(deck, rows["pid"])
     normals = deck_normals(deck, points)
     kind = np.array([properties[int(p)].card for p in rows["pid"]])
@@ -49,7 +49,12 @@ def read_shells(deck: "Deck", points: Points, card: str, corners: int) -> list[S
     return blocks
 
 
-def _check_properties(deck: "Deck", rows: pd.DataFrame, card: str) -> None:
+def check_properties(deck: "Deck", rows: pd.DataFrame, card: str) -> None:
+    """Refuse elements whose property is no shell.
+
+    Raises:
+        InputError: all of them.
+    """
     known = np.concatenate([table(deck, k)["pid"] for k in ("PSHELL", "PCOMP")])
     absent = rows[~rows["pid"].isin(known)]
     if len(absent):
@@ -84,7 +89,7 @@ def _block(
             f"{where(card, rows.iloc[i])}: {text}" for i, text in zip(bad, texts)
         )
     angle = _material_angle(points, rows, card, xyz)
-    thickness = _corner_thickness(rows, card, used, which, corners)
+    thickness = corner_thickness(rows, card, used, which, corners)
     return Shell(
         card=card,
         id=rows["eid"].to_numpy(np.int64),
@@ -124,7 +129,7 @@ def _material_angle(
     return np.arctan2(y, x) + np.where(given, 0.0, np.radians(column(rows, "theta")))
 
 
-def _corner_thickness(
+def corner_thickness(
     rows: pd.DataFrame,
     card: str,
     used: tuple[ShellProperty, ...],
