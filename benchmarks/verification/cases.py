@@ -8,6 +8,7 @@ from pathlib import Path
 from benchmarks.verification import (
     cantilevers,
     commercial,
+    curved_shells,
     drop_tests,
     macneal_harder,
     nafems_beams,
@@ -99,6 +100,13 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         macneal_harder.hemisphere,
         macneal_harder.rectangular_plates,
         macneal_harder.thick_cylinder,
+    ),
+    "Shells with mid-sides": (
+        curved_shells.patches_with_mid_sides,
+        curved_shells.curved_roof,
+        curved_shells.curved_hemisphere,
+        curved_shells.plates_of_any_thickness,
+        curved_shells.pressurised_cylinder,
     ),
     "Landing gear": (drop_tests.main_gear,),
 }

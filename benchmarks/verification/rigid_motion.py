@@ -28,6 +28,10 @@ GRID,11,,0.,0.,5.
 GRID,12,,1.2,0.1,5.
 GRID,13,,1.3,1.1,5.
 GRID,14,,0.1,0.9,5.
+GRID,15,,.7,0.,.25
+GRID,16,,1.25,.5,.1
+GRID,17,,.4,1.15,.2
+GRID,18,,-.1,.5,.1
 PSHELL,1,1,.02,1,,1
 PSHELL,2,1,.05,1,,1
 PCOMP,3,,,,,,,,+
@@ -54,6 +58,12 @@ CQUAD4,105,3,1,2,3,4,30.,-.02
 CTRIA3,111,1,1,2,3
 CTRIA3,112,1,1,2,3,,.03
 CTRIA3,113,3,1,2,3,15.,.04
+CQUAD8,114,1,1,2,3,4,15,16,+
++,17,18
+CQUAD8,115,3,1,2,3,4,15,16,+
++,17,18,,,,,30.,-.02
+CTRIA6,116,1,1,2,4,15,9,18,+
++,,.03
 CHEXA,121,4,1,2,3,4,5,6,+
 +,7,8
 CPENTA,122,4,1,2,3,5,6,7
@@ -76,7 +86,9 @@ ENDDATA
 
 _WHAT = {
     101: "flat", 102: "warped", 103: "warped, offset", 104: "warped, tapered thickness",
-    105: "warped, composite, offset", 112: "offset", 113: "composite, offset",
+    105: "warped, composite, offset", 114: "curved", 115: "curved, composite, offset",
+    116: "curved, offset",
+    112: "offset", 113: "composite, offset",
     132: "offset", 133: "offset, pinned", 134: "tapered, offset, shear centre offset",
     151: "warped",
 }  # fmt: skip

@@ -1,5 +1,7 @@
 """Plates, shells and shear panels, with their properties."""
 
+from dataclasses import replace
+
 from fem.deck import conversions
 from fem.deck.cards import finish, from_pynastran
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
@@ -21,6 +23,10 @@ TRIA = Topology(
     edges=((0, 1), (1, 2), (2, 0)),
     faces=((0, 1, 2),),
 )
+
+# With mid-sides.
+QUAD8 = replace(QUAD, grids=tuple(f"g{k}" for k in range(1, 9)), cells={8: 23})
+TRIA6 = replace(TRIA, grids=tuple(f"g{k}" for k in range(1, 7)), cells={6: 22})
 
 SHELL_FORCE = ("fx", "fy", "fxy", "mx", "my", "mxy", "tx", "ty")
 _DERIVED = ("angle", "major", "minor")
@@ -68,6 +74,11 @@ SHELL_RESULTS = (
         remark="each ply, with STRESS where PCOMP gives FT or SB",
     ),
 )
+# Those with mid-sides print their corners always.
+CURVED_RESULTS = tuple(
+    replace(result, remark=result.remark.replace("CORNER: + ", ""))
+    for result in SHELL_RESULTS
+)
 
 RECORDS = (
     # t: thickness at the corners (NaN: from the property); mcid -1: none
@@ -101,6 +112,40 @@ RECORDS = (
             topology=TRIA,
             op2=Op2(type=74, plies=97, force="plate", stress="plate"),
             results=SHELL_RESULTS,
+        ),
+    ),
+    Card(
+        name="CQUAD8",
+        group=_GROUP,
+        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID g4:i>GRID "
+        "g5:i=0>GRID? g6:i=0>GRID? g7:i=0>GRID? g8:i=0>GRID? t1:f=nan t2:f=nan "
+        "t3:f=nan t4:f=nan theta:u=0. zoffs:f=0.[L] tflag:i=0",
+        finish=finish.shell,
+        more="mcid:i>CORD",
+        ids="own",
+        convert=conversions.corners,
+        element=Element(
+            reader="shells.curved_reader:read_cquad8",
+            topology=QUAD8,
+            op2=Op2(type=64, plies=96, force="plate", stress="plate"),
+            results=CURVED_RESULTS,
+        ),
+    ),
+    Card(
+        name="CTRIA6",
+        group=_GROUP,
+        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID "
+        "g4:i=0>GRID? g5:i=0>GRID? g6:i=0>GRID? theta:u=0. zoffs:f=0.[L] t1:f=nan "
+        "t2:f=nan t3:f=nan tflag:i=0",
+        finish=finish.shell,
+        more="mcid:i>CORD",
+        ids="own",
+        convert=conversions.corners,
+        element=Element(
+            reader="shells.curved_reader:read_ctria6",
+            topology=TRIA6,
+            op2=Op2(type=75, plies=98, force="plate", stress="plate"),
+            results=CURVED_RESULTS,
         ),
     ),
     Card(

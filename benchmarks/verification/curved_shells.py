@@ -1,0 +1,229 @@
+"""CQUAD8 and CTRIA6: patches, standard shells, plates from thick to thin."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from benchmarks.verification.macneal_harder import SOURCE, X, Y, statics
+from benchmarks.verification.mesh import Bulk, rectangle, triangles
+from benchmarks.verification.patches import PATCH, PATCH_QUADS
+from benchmarks.verification.row import Row, convergence, figure
+from benchmarks.verification.runner import run
+
+CARDS = {8: "CQUAD8", 6: "CTRIA6"}
+
+
+def with_mid_sides(points: np.ndarray, conn: np.ndarray) -> tuple[np.ndarray, ...]:
+    """(g, k) points with those half-way along all edges, and elements with them."""
+    edges = np.stack([conn, np.roll(conn, -1, axis=1)], axis=2)
+    pairs = np.sort(edges, axis=2).reshape(-1, 2)
+    unique, which = np.unique(pairs, axis=0, return_inverse=True)
+    middles = which.reshape(conn.shape) + len(points)
+    return np.vstack([points, points[unique].mean(axis=1)]), np.hstack([conn, middles])
+
+
+def meshes(points: np.ndarray, conn: np.ndarray) -> list[tuple[np.ndarray, ...]]:
+    """The same mesh of CQUAD8 and of CTRIA6."""
+    return [with_mid_sides(points, own) for own in (conn, triangles(conn))]
+
+
+def curved_model(
+    xyz: np.ndarray,
+    conn: np.ndarray,
+    material: tuple[float, float, float],
+    thickness: float,
+) -> Bulk:
+    """Shells of one thickness; E, nu, rho."""
+    bulk = Bulk()
+    bulk.add("MAT1", 1, material[0], "", *material[1:])
+    bulk.add("PSHELL", 1, 1, thickness, 1, "", 1)
+    bulk.grids(xyz)
+    bulk.elements(CARDS[conn.shape[1]], 1, conn)
+    return bulk
+
+
+def patches_with_mid_sides() -> list[Row]:
+    """MacNeal and Harder's mesh of distorted elements: uniform states are exact."""
+    rows = []
+    for points, conn in meshes(PATCH, PATCH_QUADS):
+        x, y = points.T
+        zero = 0.0 * x
+        rim = (x == 0.0) | (y == 0.0) | (x == 0.24) | (y == 0.12)
+        membrane = 1e-3 * np.stack([x + y / 2, y + x / 2, *[zero] * 4], 1)
+        deflection = (x * x + x * y + y * y) / 2
+        slopes = y + x / 2, -(x + y / 2)
+        bending = 1e-3 * np.stack([zero, zero, deflection, *slopes, zero], 1)
+        for kind, exact, free, stresses in (
+            ("membrane", membrane, "3456", (4000 / 3, 4000 / 3, 400.0)),
+            ("bending", bending, "126", (2 / 3, 2 / 3, 0.2)),
+        ):
+            bulk = curved_model(np.c_[points, zero], conn, (1e6, 0.25, 0.0), 1e-3)
+            bulk.fix("123456", rim)
+            bulk.fix(free, ~rim)
+            for grid, component in np.argwhere((exact != 0.0) & rim[:, None]):
+                value = float(exact[grid, component])
+                bulk.add("SPCD", 7, grid + 1, component + 1, value)
+            results = run(bulk.deck(101, "SPC = 1\nLOAD = 7\nDISP = ALL\nSTRESS = ALL"))
+            case = f"{kind} patch of {CARDS[conn.shape[1]]}"
+            error = np.abs(results["static/1/displacement"] - exact)
+            xx, yy, xy = stresses
+            theirs = np.sqrt(xx * xx - xx * yy + yy * yy + 3.0 * xy * xy)
+            table = f"static/1/element_stress/{CARDS[conn.shape[1]]}"
+            ours = results.column(table, "c2_von_mises_2") / theirs - 1.0
+            for quantity, value in (
+                ("inner displacements", error.max() / np.abs(exact).max()),
+                ("von Mises stress at a corner", np.abs(ours).max()),
+            ):
+                rows.append(
+                    figure(case, quantity, float(value), 0.0, "exact", target=1e-9)
+                )
+    return rows
+
+
+Mesh = tuple[np.ndarray, np.ndarray]
+
+
+def _converge(
+    case: str,
+    quantity: str,
+    theirs: float,
+    source: str,
+    sizes: tuple[int, ...],
+    solve: Callable[[Mesh], float],
+    target: float = 0.01,
+) -> list[Row]:
+    rows = []
+    for k, card in enumerate(CARDS.values()):
+        found = []
+        for n in sizes:
+            points, conn = meshes(*rectangle(n, n))[k]
+            found.append((f"{n} x {n}", solve((points, conn))))
+        rows += convergence(
+            f"{case} of {card}", quantity, found, theirs, source, target=target
+        )
+    return rows
+
+
+def curved_roof() -> list[Row]:
+    """A quarter of the roof under its weight."""
+
+    def solve(mesh: Mesh) -> float:
+        points, conn = mesh
+        x, y = points.T
+        angle = np.radians(40.0) * y
+        xyz = np.c_[25.0 * x, 25.0 * np.sin(angle), 25.0 * np.cos(angle)]
+        bulk = curved_model(xyz, conn, (4.32e8, 0.0, 360.0), 0.25)
+        bulk.fix("23", x == 0)
+        bulk.fix("156", x == 1)
+        bulk.fix("246", y == 0)
+        bulk.add("GRAV", 7, "", 1.0, 0.0, 0.0, -1.0)
+        edge = int(np.flatnonzero((x == 1) & (y == 1))[0])
+        return float(-statics(bulk)[edge, 2])
+
+    case = "Scordelis-Lo roof"
+    return _converge(
+        case, "edge deflection", 0.3024, SOURCE, (1, 2, 4, 8), solve, 0.011
+    )
+
+
+def curved_hemisphere() -> list[Row]:
+    """A quarter of the half sphere with an 18 degree hole, radial loads."""
+
+    def solve(mesh: Mesh) -> float:
+        points, conn = mesh
+        x, y = points.T
+        turn, up = 0.5 * np.pi * x, np.radians(72.0) * y
+        flat = np.cos(up)
+        xyz = 10.0 * np.c_[flat * np.cos(turn), flat * np.sin(turn), np.sin(up)]
+        xyz[np.abs(xyz) < 1e-12] = 0.0
+        bulk = curved_model(xyz, conn, (6.825e7, 0.3, 0.0), 0.04)
+        bulk.fix("246", x == 0)
+        bulk.fix("156", x == 1)
+        first = int(np.flatnonzero((x == 0) & (y == 0))[0])
+        second = int(np.flatnonzero((x == 1) & (y == 0))[0])
+        bulk.fix("3", first)
+        bulk.forces(7, first, X, 1.0)
+        bulk.forces(7, second, -Y, 1.0)
+        return float(statics(bulk)[first, 0])
+
+    case, quantity = "hemisphere", "radial displacement"
+    return _converge(case, quantity, 0.094, SOURCE, (2, 4, 8, 16, 32), solve, 0.011)
+
+
+def plates_of_any_thickness() -> list[Row]:
+    """A quarter of a supported square plate under pressure, thick to very thin.
+
+    Navier's series of Kirchhoff's plate, and what shear adds to it: under hard support
+    of a polygon the moment sum is that of Kirchhoff, so that w = w_K + M / (k G t).
+    """
+    rows = []
+    for thickness in (0.2, 0.02, 2e-3, 2e-4):
+        theirs = 1e3 * thickness**3 * mindlin_deflection(thickness)
+
+        def solve(mesh: Mesh, t: float = thickness) -> float:
+            points, conn = mesh
+            x, y = points.T
+            xyz = np.c_[points, 0.0 * x]
+            bulk = curved_model(xyz, conn, (1e7, 0.3, 0.0), t)
+            bulk.fix("126", np.full(len(x), True))
+            bulk.fix("5", x == 0)
+            bulk.fix("4", y == 0)
+            bulk.fix("34", x == 1)
+            bulk.fix("35", y == 1)
+            bulk.add("PLOAD4", 7, 1, 1.0, "", "", "", "THRU", len(conn))
+            return float(1e3 * t**3 * statics(bulk)[0, 2])
+
+        case = f"supported plate, thickness/side {thickness / 2:g},"
+        quantity, source = "1e3 t^3 w of the centre", "Navier, Mindlin"
+        rows += _converge(case, quantity, theirs, source, (2, 4, 8), solve, 0.002)
+    return rows
+
+
+def mindlin_deflection(t: float) -> float:
+    """Centre of a supported plate 2 x 2, E 1e7, nu .3, pressure 1, by double series."""
+    m = np.arange(1, 200, 2)
+    first, second = np.meshgrid(m, m)
+    wave = (np.pi / 2.0) ** 2 * (first**2 + second**2)
+    load = 16.0 / (np.pi**2 * first * second)
+    load *= np.sin(0.5 * np.pi * first) * np.sin(0.5 * np.pi * second)
+    bending = 1e7 * t**3 / 12.0 / (1.0 - 0.09)
+    shear = 0.833333 * 1e7 / 2.6 * t
+    return float(np.sum(load / (bending * wave**2) + load / (shear * wave)))
+
+
+def pressurised_cylinder() -> list[Row]:
+    """An eighth of a long cylinder under inner pressure: membrane stress p R / t."""
+    rows = []
+    for points, conn in meshes(*rectangle(3, 2)):
+        x, y = points.T
+        angle = 0.5 * np.pi * x
+        xyz = np.c_[np.cos(angle), np.sin(angle), y]
+        bulk = curved_model(xyz, conn, (7e10, 0.3, 0.0), 0.01)
+        bulk.fix("246", x == 0)
+        bulk.fix("156", x == 1)
+        bulk.fix("345", y == 0)
+        bulk.fix("45", y == 1)
+        bulk.add("PLOAD2", 7, 1e6, 1, "THRU", len(conn))
+        results = run(bulk.deck(101, "SPC = 1\nLOAD = 7\nDISP = ALL\nSTRESS = ALL"))
+        card = CARDS[conn.shape[1]]
+        u = results["static/1/displacement"]
+        radial = np.einsum("gi,gi->g", u[:, :2], xyz[:, :2])
+        ours = {
+            "radial displacement": (radial.mean(), 1e6 / (7e10 * 0.01)),
+            "mean hoop stress at the centres": (
+                results.column(f"static/1/element_stress/{card}", "major_1").mean(),
+                1e6 / 0.01,
+            ),
+        }
+        for quantity, (value, theirs) in ours.items():
+            rows.append(
+                figure(
+                    f"pressurised cylinder of {card}",
+                    quantity,
+                    float(abs(value)),
+                    theirs,
+                    "p R² / (E t), p R / t",
+                    target=0.01,
+                )
+            )
+    return rows

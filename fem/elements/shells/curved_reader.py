@@ -1,0 +1,139 @@
+"""CQUAD8 and CTRIA6 cards to blocks: properties, thickness, material axes, shape."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from fem.arrays import Bool, Float64
+from fem.deck.grids import grids_of
+from fem.deck.records import CARDS
+from fem.deck.references import column, table, where
+from fem.elements.shells.convex import bad_facets
+from fem.elements.shells.curved import SURFACES, CurvedShell, material_angle
+from fem.elements.shells.quadratic_surface import Surface, base
+from fem.elements.shells.shell_reader import check_properties, corner_thickness
+from fem.errors import InputError
+from fem.geometry.points import Points
+from fem.properties.shells import ShellProperty, read_shell_properties, sections
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
+
+
+def read_curved(deck: "Deck", points: Points, card: str) -> list[CurvedShell]:
+    """Blocks of one card: those with PSHELL, then those with PCOMP.
+
+    Raises:
+        InputError: undefined references, mid-sides that are left out, shapes that
+            cannot be, missing thickness; all of them.
+    """
+    rows = table(deck, card).sort_values("eid", ignore_index=True)
+    if rows.empty:
+        return []
+    check_properties(deck, rows, card)
+    properties = read_shell_properties(deck, rows["pid"])
+    kind = np.array([properties[int(p)].card for p in rows["pid"]])
+    blocks, problems = [], []
+    for name in ("PSHELL", "PCOMP"):
+        part = rows[kind == name].reset_index(drop=True)
+        if part.empty:
+            continue
+        try:
+            blocks.append(_block(deck, points, part, card, properties))
+        except InputError as error:
+            problems += error.problems
+    if problems:
+        raise InputError(problems)
+    return blocks
+
+
+def _block(
+    deck: "Deck",
+    points: Points,
+    rows: pd.DataFrame,
+    card: str,
+    properties: dict[int, ShellProperty],
+) -> CurvedShell:
+    topology = CARDS[card].topology
+    assert topology is not None
+    grids, surface = grids_of(rows, topology), SURFACES[card]
+    corners = surface.corners
+    _refuse(rows, card, (grids <= 0).any(axis=1), "mid-sides are left out, not "
+            f"supported here; expected {len(surface.nodes)} grids")  # fmt: skip
+    at = points.rows(grids)
+    nodes = points.xyz[at]
+    bad, texts = bad_facets(nodes[:, :corners])
+    if len(bad):
+        raise InputError(
+            f"{where(card, rows.iloc[i])}: {text}" for i, text in zip(bad, texts)
+        )
+    _check_folds(rows, card, surface, nodes)
+    pids, which = np.unique(rows["pid"].to_numpy(np.int64), return_inverse=True)
+    used = tuple(properties[int(p)] for p in pids)
+    thickness = corner_thickness(rows, card, used, which, corners)
+    theta, towards = _material(points, rows, nodes)
+    centre = base(surface, nodes, surface.results[:1])
+    angle = material_angle(centre, theta, towards)[:, 0]
+    tilt = np.abs(np.einsum("ei,ei->e", towards, centre.normal[:, 0]))
+    _refuse(rows, card, tilt > 1.0 - 1e-12, "the x axis of its material system MCID is "
+            "normal to the element, expected a direction in its plane")  # fmt: skip
+    return CurvedShell(
+        card=card,
+        id=rows["eid"].to_numpy(np.int64),
+        dof=(6 * at[:, :, None] + np.arange(6)).reshape(len(rows), -1),
+        pid=rows["pid"].to_numpy(np.int64),
+        property_card=used[0].card,
+        corners=nodes[:, :corners],
+        offset=column(rows, "zoffs"),
+        normals=np.zeros((len(rows), corners, 3)),
+        section=sections(list(used), which, angle, thickness),
+        k6rot=deck.number("K6ROT"),
+        properties=used,
+        which=which,
+        angle=angle,
+        nodes=nodes,
+        corner_thickness=thickness,
+        theta=theta,
+        towards=towards,
+    )
+
+
+def _refuse(rows: pd.DataFrame, card: str, bad: Bool, text: str) -> None:
+    if bad.any():
+        raise InputError(
+            f"{where(card, rows.iloc[i])}: {text}" for i in np.flatnonzero(bad)
+        )
+
+
+def _check_folds(
+    rows: pd.DataFrame, card: str, surface: Surface, nodes: Float64
+) -> None:
+    """Refuse elements that are folded over: the normal turns against the centre's."""
+    centre = base(surface, nodes, surface.results[:1]).normal
+    for p in (surface.nodes, surface.points):
+        here = base(surface, nodes, p)
+        turned = np.einsum("eqi,ei->eq", here.normal, centre[:, 0]).min(axis=1)
+        _refuse(rows, card, ~(turned > 0.0), "it is folded over: a mid-side is too far "
+                "from the middle of its edge, or out of order")  # fmt: skip
+
+
+def _material(
+    points: Points, rows: pd.DataFrame, nodes: Float64
+) -> tuple[Float64, Float64]:
+    """(e,) THETA in rad, and (e, 3) x axis of MCID at the centre, NaN without one."""
+    mcid = rows["mcid"].to_numpy(np.int64)
+    towards = np.full((len(rows), 3), np.nan)
+    given = mcid >= 0
+    if given.any():
+        centre = nodes[given].mean(axis=1)
+        towards[given] = points.frames.triads(mcid[given], centre)[:, :, 0]
+    return np.radians(column(rows, "theta")), towards
+
+
+def _reader(card: str) -> Callable[["Deck", Points], list[CurvedShell]]:
+    return lambda deck, points: read_curved(deck, points, card)
+
+
+read_cquad8, read_ctria6 = _reader("CQUAD8"), _reader("CTRIA6")

@@ -1,0 +1,236 @@
+"""Surfaces with mid-sides: shape functions, samples of strain, base vectors.
+
+Natural coordinates run from -1 to 1 in quadrilaterals, from 0 to 1 in triangles.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from fem.arrays import Float64
+from fem.elements.shells.shell_geometry import unit
+
+_G, _H = 1.0 / np.sqrt(3.0), np.sqrt(0.6)
+Powers = tuple[tuple[int, int], ...]
+
+
+def monomials(powers: Powers, p: Float64) -> Float64:
+    """(q, m) products of powers of the natural coordinates (q, 2)."""
+    return np.stack([p[:, 0] ** i * p[:, 1] ** j for i, j in powers], axis=1)
+
+
+def fitted(powers: Powers, samples: Float64, at: Float64) -> Float64:
+    """(q, s) values at points (q, 2) from samples (s, 2), as many as powers."""
+    return monomials(powers, at) @ np.linalg.inv(monomials(powers, samples))
+
+
+def _slopes(powers: Powers, p: Float64) -> Float64:
+    """(q, 2, m) derivatives of the monomials."""
+    parts = []
+    for k in (0, 1):
+        lower = [
+            (i - (k == 0), j - (k == 1)) if (i, j)[k] else (0, 0) for i, j in powers
+        ]
+        factor = np.array([own[k] for own in powers], float)
+        parts.append(factor * monomials(tuple(lower), p))
+    return np.stack(parts, axis=1)
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Natural coordinates of an element with corners and mid-sides.
+
+    Attributes:
+        nodes: (n, 2) natural coordinates, the corners first.
+        powers: of the interpolation of displacements.
+        linear: of that of the thickness, from the corners.
+        points, weights: (q, 2), (q,) rule of integration.
+        strains: per component 11, 22, 12 samples (s, 2) and powers.
+        edges: (m, 2) points where shear is taken, towards: (m, 2) natural directions.
+        means: (s, m) samples of shear from these.
+        shears: powers of both components of shear; together as many as samples.
+        mean_shear: the mean shear is that of the displacements.
+        stress: (g, 2) points of which printed results are extrapolated by `printed`.
+        even: element axes lie evenly about both tangents.
+    """
+
+    nodes: Float64
+    powers: Powers
+    linear: Powers
+    points: Float64
+    weights: Float64
+    strains: tuple[tuple[Float64, Powers], ...]
+    edges: Float64
+    towards: Float64
+    means: Float64
+    shears: tuple[Powers, Powers]
+    mean_shear: bool
+    stress: Float64
+    printed: Powers
+    even: bool
+
+    @property
+    def corners(self) -> int:
+        """Number of corners."""
+        return len(self.linear)
+
+    @cached_property
+    def results(self) -> Float64:
+        """(1 + c, 2) the centre and the corners."""
+        own = self.nodes[: self.corners]
+        return np.concatenate([own.mean(axis=0)[None], own])
+
+    def values(self, p: Float64) -> Float64:
+        """(q, n) shape functions."""
+        return fitted(self.powers, self.nodes, p)
+
+    def slopes(self, p: Float64) -> Float64:
+        """(q, 2, n) their derivatives."""
+        at_nodes = monomials(self.powers, self.nodes)
+        return _slopes(self.powers, p) @ np.linalg.inv(at_nodes)
+
+    def of_corners(self, p: Float64) -> Float64:
+        """(q, c) linear shape functions of the corners."""
+        return fitted(self.linear, self.nodes[: self.corners], p)
+
+    def shear_fit(self, p: Float64) -> Float64:
+        """(q, 2, s) covariant shear from its samples along the edges."""
+        first, second = self.shears
+        zero = [np.zeros((len(p), len(own))) for own in self.shears]
+        rows = [
+            np.concatenate([monomials(first, p), zero[1]], axis=1),
+            np.concatenate([zero[0], monomials(second, p)], axis=1),
+        ]
+        there = np.concatenate(
+            [
+                self.towards[:, :1] * monomials(first, self.edges),
+                self.towards[:, 1:] * monomials(second, self.edges),
+            ],
+            axis=1,
+        )
+        return np.stack(rows, axis=1) @ np.linalg.inv(self.means @ there) @ self.means
+
+
+def _products(first: int, second: int) -> Powers:
+    return tuple((i, j) for i in range(first + 1) for j in range(second + 1))
+
+
+def _grid(first: tuple[float, ...], second: tuple[float, ...]) -> Float64:
+    return np.array([(r, s) for r in first for s in second])
+
+
+_TWO, _THREE = (-_G, _G), (-_H, 0.0, _H)
+_TIP = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])
+_P1: Powers = ((0, 0), (1, 0), (0, 1))
+_FOUR_AND_MEAN = np.eye(5, 6)
+_FOUR_AND_MEAN[4, 4:] = 0.5
+_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
+QUAD8 = Surface(
+    nodes=np.concatenate([_TIP, 0.5 * (_TIP + np.roll(_TIP, -1, axis=0))]),
+    powers=(*_P1, (2, 0), (1, 1), (0, 2), (2, 1), (1, 2)),
+    linear=_products(1, 1),
+    points=_grid(_THREE, _THREE),
+    weights=np.outer(_WEIGHTS, _WEIGHTS).ravel(),
+    strains=(
+        (_grid(_TWO, _THREE), _products(1, 2)),
+        (_grid(_THREE, _TWO), _products(2, 1)),
+        (_grid(_TWO, _TWO), _products(1, 1)),
+    ),
+    edges=np.concatenate(
+        [_grid((-1.0, 1.0, 0.0), _TWO)[:, ::-1], _grid((-1.0, 1.0, 0.0), _TWO)]
+    ),
+    towards=np.repeat([[1.0, 0.0], [0.0, 1.0]], 6, axis=0),
+    means=np.kron(np.eye(2), _FOUR_AND_MEAN),
+    shears=((*_products(1, 1), (0, 2)), (*_products(1, 1), (2, 0))),
+    mean_shear=False,
+    stress=_grid(_TWO, _TWO),
+    printed=_products(1, 1),
+    even=True,
+)
+_TRI = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+_ALONG = np.roll(_TRI, -1, axis=0) - _TRI
+_INNER = np.array([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]]) / 6.0
+# Degree four, six points (Strang and Fix).
+_A, _B = 0.445948490915965, 0.091576213509771
+_SIX = np.array([(a, b) for t in (_A, _B) for a, b in
+                 ((t, t), (1 - 2 * t, t), (t, 1 - 2 * t))])  # fmt: skip
+TRIA6 = Surface(
+    nodes=np.concatenate([_TRI, _TRI + 0.5 * _ALONG]),
+    powers=(*_P1, (2, 0), (1, 1), (0, 2)),
+    linear=_P1,
+    points=_SIX,
+    weights=0.5 * np.repeat([0.223381589678011, 0.109951743655322], 3),
+    strains=((_INNER, _P1),) * 3,
+    edges=np.concatenate([_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)]),
+    towards=np.concatenate([_ALONG, _ALONG]),
+    means=np.eye(6),
+    shears=(_P1, _P1),
+    mean_shear=True,
+    stress=_INNER,
+    printed=_P1,
+    even=False,
+)
+
+
+@dataclass(frozen=True)
+class Base:
+    """The surface at points (e, q).
+
+    Attributes:
+        a: (e, q, 2, 3) tangents.
+        normal: (e, q, 3) unit normal.
+        axes: (e, q, 2, 3) element axes x and y.
+    """
+
+    a: Float64
+    normal: Float64
+    axes: Float64
+
+    @property
+    def area(self) -> Float64:
+        """(e, q) area per natural area."""
+        return np.linalg.norm(np.cross(self.a[..., 0, :], self.a[..., 1, :]), axis=-1)
+
+    @property
+    def gradient(self) -> Float64:
+        """(e, q, 2, 2) d natural_k / d x_i at [i, k]."""
+        return np.linalg.inv(np.einsum("eqki,eqai->eqka", self.a, self.axes))
+
+
+def base(surface: Surface, x: Float64, p: Float64) -> Base:
+    """Tangents, normal and axes at natural points (q, 2) of nodes (e, n, 3)."""
+    a = surface.slopes(p) @ x[:, None]
+    normal = unit(np.cross(a[..., 0, :], a[..., 1, :]))
+    first = unit(a[..., 0, :])
+    if surface.even:
+        middle = unit(first + unit(a[..., 1, :]))
+        first = unit(middle - np.cross(normal, middle))
+    return Base(a, normal, np.stack([first, np.cross(normal, first)], axis=-2))
+
+
+def cartesian(gradient: Float64) -> Float64:
+    """(..., 3, 3) strains xx yy xy (engineering) from covariant 11 22 2x12."""
+    x, y = gradient[..., 0, :], gradient[..., 1, :]
+    rows = [
+        [x[..., 0] ** 2, x[..., 1] ** 2, x[..., 0] * x[..., 1]],
+        [y[..., 0] ** 2, y[..., 1] ** 2, y[..., 0] * y[..., 1]],
+        [
+            2.0 * x[..., 0] * y[..., 0],
+            2.0 * x[..., 1] * y[..., 1],
+            x[..., 0] * y[..., 1] + x[..., 1] * y[..., 0],
+        ],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def turned(source: Base, target: Base) -> Float64:
+    """(e, p, g, 8, 8) strains at points g to the axes at points p, as if on a plane."""
+    x = np.einsum("epj,egij->epgi", target.axes[..., 0, :], source.axes)
+    c, s = np.moveaxis(unit(x), -1, 0)
+    matrix = np.zeros((*c.shape, 8, 8))
+    gradient = np.stack([np.stack([c, s], -1), np.stack([-s, c], -1)], axis=-2)
+    plane = cartesian(gradient)
+    matrix[..., :3, :3] = matrix[..., 3:6, 3:6] = plane
+    matrix[..., 6:, 6:] = gradient
+    return matrix
