@@ -48,14 +48,11 @@ def hexa8(nodes: Float64, elasticity: Float64) -> SolidMatrices:
 
 
 def _sampling(order: int) -> Sampling:
-    """Normal strains at order^3 points, shear strains at 2 x 2 x 2."""
-    shear = gauss_hex(2)
-    # Trilinear functions through the points: 1 at its own point, 0 at the others.
-    spread = np.linalg.solve(hex8(shear.points).T, hex8(OUTPUT).T).T
+    """Normal strains at order^3 points, shear strains trilinear through 2 x 2 x 2."""
     return Sampling(
-        normal=gauss_hex(order),
-        shear=shear,
-        spread=spread,
+        fine=gauss_hex(order),
+        coarse=gauss_hex(2),
+        basis=hex8,
         axes=hexa_axes,
         centre=OUTPUT[:1],
     )

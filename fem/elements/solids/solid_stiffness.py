@@ -1,8 +1,8 @@
 """Stiffness and stresses of solids: displacements, reduced shear, assumed stresses.
 
-Reduced shear: in the element's own axes the normal strains are integrated and printed
-as they are, the shear strains taken at fewer points. Both rules integrate the nodal
-forces of uniform stress exactly while edges are straight (patch test).
+Reduced shear: in the element's own axes some strains are taken as they are, the others
+(shear) at fewer points. Both rules integrate the nodal forces of uniform stress exactly
+while edges are straight (patch test).
 
 The hybrid hexahedron assumes the 18 stress modes of Pian and Tong (1986): uniform
 stress; normal stresses that vary across their direction; shear that varies along the
@@ -78,17 +78,23 @@ class Sampling:
     """Where the strains of an element with reduced shear are taken.
 
     Attributes:
-        normal, shear: quadrature of the normal and of the shear strains.
-        spread: (p, q) values at the output points from those at the points of `shear`.
+        fine: quadrature of the strains that are taken as they are.
+        coarse: quadrature of the others.
+        basis: functions of the natural coordinates to which those are fitted at the
+            points of `coarse`, least squares with the weights of the integration.
         axes: element axes (e, 3, 3) from the Jacobian at the centre.
         centre: (1, 3) natural point.
+        direct: which of xx yy zz xy yz zx in the element axes are taken as they are.
+        printed: which of them are printed as they are.
     """
 
-    normal: Rule
-    shear: Rule
-    spread: Float64
+    fine: Rule
+    coarse: Rule
+    basis: Derivatives
     axes: Callable[[Float64], Float64]
     centre: Float64
+    direct: tuple[int, ...] = (0, 1, 2)
+    printed: tuple[int, ...] = (0, 1, 2)
 
 
 def reduced_shear_solid(
@@ -98,29 +104,48 @@ def reduced_shear_solid(
     sampling: Sampling,
     at: Float64,
 ) -> SolidMatrices:
-    """Displacement element with normal and shear strains taken at different points.
+    """Displacement element whose strains are taken at different points.
 
-    The energy is that of all strains by the rule of the shear, and of the normal ones
-    by their own rule instead. Arguments as for `displacement_solid`.
+    The energy is that of all strains by the coarse rule, and of the direct ones by the
+    fine rule instead. Arguments as for `displacement_solid`.
     """
     axes = sampling.axes(jacobians(xyz, derivatives(sampling.centre))[:, 0])
     turn = stress_rotation(axes, strain=True)
-    normal = np.linalg.solve(turn, np.diag([1.0] * 3 + [0.0] * 3) @ turn)[:, None]
-    coarse, coarse_weight = _strain(xyz, derivatives, sampling.shear)
-    fine, fine_weight = _strain(xyz, derivatives, sampling.normal)
+
+    def part(rows: tuple[int, ...]) -> Float64:
+        """(e, 1, 6, 6) the part of a strain that lies in some rows of element axes."""
+        kept = np.zeros((6, 6))
+        kept[rows, rows] = 1.0
+        return np.linalg.solve(turn, kept @ turn)[:, None]
 
     def energy(strain: Float64, weight: Float64) -> Float64:
         stress = elasticity[:, None] @ strain
         return np.einsum("eq,eqsi,eqsj->eij", weight, strain, stress, optimize=True)
 
-    stiffness = energy(coarse, coarse_weight) - energy(normal @ coarse, coarse_weight)
+    coarse, coarse_weight = _strain(xyz, derivatives, sampling.coarse)
+    fine, fine_weight = _strain(xyz, derivatives, sampling.fine)
+    direct, printed = part(sampling.direct), part(sampling.printed)
+    values = sampling.basis(sampling.coarse.points)
+    weighted = coarse_weight[..., None] * values
+    fitted = np.linalg.solve(
+        np.einsum("eqa,qb->eab", weighted, values), weighted.transpose(0, 2, 1)
+    )
+
+    def spread(points: Float64) -> Float64:
+        """(e, p, 6, 3 n) the fitted strains at natural points."""
+        share = sampling.basis(points) @ fitted
+        return np.einsum("epq,eqsi->epsi", share, coarse, optimize=True)
+
+    smooth = spread(sampling.coarse.points)
+    stiffness = energy(smooth + direct @ (coarse - smooth), coarse_weight)
+    stiffness += energy(direct @ fine, fine_weight)
+    stiffness -= energy(direct @ coarse, coarse_weight)
     gradient = derivatives(at)
-    inverse = np.linalg.inv(jacobians(xyz, gradient))
-    direct = normal @ strain_operator(inverse @ gradient)
-    shear = np.einsum("pq,eqsi->epsi", sampling.spread, coarse - normal @ coarse)
+    outside = strain_operator(np.linalg.inv(jacobians(xyz, gradient)) @ gradient)
+    smooth = spread(at)
     return SolidMatrices(
-        stiffness=stiffness + energy(normal @ fine, fine_weight),
-        stress=elasticity[:, None] @ (direct + shear),
+        stiffness=stiffness,
+        stress=elasticity[:, None] @ (smooth + printed @ (outside - smooth)),
     )
 
 
