@@ -172,7 +172,7 @@ def quad_measures(corners: Float64) -> dict[str, Float64]:
         "aspect": _aspect(edges),
         "skew": np.minimum(between, 180.0 - between),
         "taper": np.abs(corner_area / mean[:, None] - 1.0).max(axis=1),
-        "warp": np.abs(flat.link[:, 0]) / (0.5 * diagonals),
+        "warp": np.abs(flat.warp) / (0.5 * diagonals),
         "angle_min": angles.min(axis=1),
         "angle_max": angles.max(axis=1),
     }

@@ -2,9 +2,8 @@
 
 Compatible linear displacements and rotations on the mean plane; hybrid resultants
 (`shell_hybrid`), edge-sampled transverse shear with MacNeal's residual bending
-flexibility (`shell_shear`), drilling penalty (`shell_drilling`), rigid links from the
-mean plane to the grids (`shell_geometry`). On rectangles its nodal forces are those of
-MSC and NX Nastran.
+flexibility (`shell_shear`), drilling penalty (`shell_drilling`), offset and warp
+(`shell_geometry`). On rectangles its nodal forces are those of MSC and NX Nastran.
 """
 
 from typing import TYPE_CHECKING

@@ -71,7 +71,7 @@ def panel_shape(corners: Float64, nu: Float64) -> PanelShape:
         flexibility=0.5 * p[:, 0] * p[:, 1] / (p[:, 2] * p[:, 3]) * factor,
         corner=np.stack([one, two, -one, -two], axis=1),
         side=side,
-        warp=flat.link[:, 0] - flat.link[:, 1],
+        warp=-2.0 * flat.warp,
     )
 
 

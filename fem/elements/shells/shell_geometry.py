@@ -2,9 +2,16 @@
 
 A quadrilateral is flattened onto its mean plane: the normal is that of the diagonals,
 the corners lie alternately h above and below. The element x axis bisects the diagonals
-(Nastran's rule), that of a triangle runs along its first side. Rigid links along the
-normal connect each grid with its point on the flat reference surface, so that warp and
-offset (ZOFFS) leave rigid motions free of strain and forces in equilibrium.
+(Nastran's rule), that of a triangle runs along its first side. The offset (ZOFFS) is a
+rigid link along the normal from each grid to its point on the flat reference surface.
+
+Warp acts without the rotations of the grids (MacNeal 1978: forces off the plane are
+balanced by forces along the normal). A corner at height z follows the mean slope of w
+over the element; and where w is warped itself by w_h, alternately up and down, the
+sides of the warped shape stretch: with the tangents x,1 = (j_1, z,1) its strain at the
+centre has the covariant parts h w_h along both natural directions. Rigid motions give
+none. Under MSC's displacements the membrane forces of a foreign airframe's warped
+quadrilaterals are so MSC's to 1e-4.
 
 Where facets meet at an angle, bending moments have a part along the normal of the grid,
 which nothing but the weak drilling stiffness would carry. Therefore each corner has its
@@ -26,13 +33,15 @@ class Facet:
     Attributes:
         axes: (e, 3, 3) rows are the element axes x, y, z in the basic frame.
         xy: (e, n, 2) corners in the element plane, about the centroid of the corners.
-        link: (e, n) height of the flat reference surface above each grid along z.
+        offset: (e,) height of the reference surface above the grids' mean plane, z.
+        warp: (e,) height h of corners 1 and 3 above the mean plane, 2 and 4 below it.
         slope: (e, n, 2) normal of the corner, x and y component over z component.
     """
 
     axes: Float64
     xy: Float64
-    link: Float64
+    offset: Float64
+    warp: Float64
     slope: Float64
 
     @property
@@ -91,7 +100,8 @@ def facet(
     return Facet(
         axes=axes,
         xy=local[..., :2],
-        link=above[:, None] - local[..., 2],
+        offset=above,
+        warp=local[:, 0, 2] if corners.shape[1] == 4 else np.zeros(len(corners)),
         slope=_slopes(corners, axes, normals),
     )
 
@@ -122,9 +132,11 @@ def to_grids(local: Float64, shape: Facet) -> Float64:
     e, m, _ = local.shape
     parts = local.reshape(e, m, shape.corners, 2, 3)
     force, moment = parts[..., 0, :].copy(), parts[..., 1, :].copy()
-    # A point h above the grid moves by theta x (0, 0, h) = (h ry, -h rx, 0).
-    moment[..., 1] += force[..., 0] * shape.link[:, None, :]
-    moment[..., 0] -= force[..., 1] * shape.link[:, None, :]
+    # A point at height z above the grid moves by theta x (0, 0, z) = (z ry, -z rx, 0).
+    moment[..., 1] += force[..., 0] * shape.offset[:, None, None]
+    moment[..., 0] -= force[..., 1] * shape.offset[:, None, None]
+    if shape.warp.any():
+        force[..., 2] += np.einsum("emia,eiak->emk", force[..., :2], _warping(shape))
     if shape.slope.any():
         # rx and ry become rx - s_x (rz - spin), ry - s_y (rz - spin).
         spun = np.einsum("emnk,enk->emn", moment[..., :2], shape.slope)
@@ -137,10 +149,43 @@ def to_grids(local: Float64, shape: Facet) -> Float64:
 
 def centre_spin(shape: Facet) -> Float64:
     """(e, n, 2) rotation (v,x - u,y) / 2 of the membrane at the centre from (u, v)."""
+    gradient = centre_gradient(shape)
+    return 0.5 * np.stack([-gradient[:, 1], gradient[:, 0]], axis=2)
+
+
+def centre_gradient(shape: Facet) -> Float64:
+    """(e, 2, n) derivatives in x and y of the shape functions at the centre."""
     x = shape.xy
     # Of both shapes: dN/dx = (y_next - y_previous) / 2A, dN/dy = -(x_next - ...) / 2A.
     across = np.roll(x, -1, axis=1) - np.roll(x, 1, axis=1)
-    return 0.25 * across / shape.area[:, None, None]
+    return (
+        np.stack([across[..., 1], -across[..., 0]], axis=1)
+        / (2.0 * shape.area)[:, None, None]
+    )
+
+
+def natural_vectors(shape: Facet) -> Float64:
+    """(e, 2, 2) derivatives of (x, y) along xi and eta at the centre (rows)."""
+    x = shape.xy
+    return 0.25 * np.stack(
+        [x[:, 1] + x[:, 2] - x[:, 0] - x[:, 3], x[:, 2] + x[:, 3] - x[:, 0] - x[:, 1]],
+        axis=1,
+    )
+
+
+def _warping(shape: Facet) -> Float64:
+    """(e, 4, 2, 4) displacement (u, v) of the flat corners from w of the grids.
+
+    z_i grad w, and the uniform strain h w_h J^-1 J^-T times the place of the corner,
+    with w_h the part of w that no linear field has.
+    """
+    sign = np.array([1.0, -1.0, 1.0, -1.0])
+    gradient, height = centre_gradient(shape), shape.warp[:, None, None, None]
+    rotation = sign[:, None, None] * gradient[:, None]
+    hourglass = 0.25 * (sign - (sign @ shape.xy)[:, None] @ gradient)[:, 0]
+    inverse = np.linalg.inv(natural_vectors(shape))
+    stretched = shape.xy @ (inverse @ inverse.transpose(0, 2, 1))
+    return height * (rotation + stretched[..., None] * hourglass[:, None, None])
 
 
 def matrix_to_grids(local: Float64, shape: Facet) -> Float64:

@@ -19,12 +19,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.arrays import Float64
-from fem.elements.shells.shell_geometry import Facet
+from fem.elements.shells.shell_geometry import Facet, natural_vectors
 from fem.properties.shell_section import ShellSection, line_strain
 
 _GAUSS = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) / np.sqrt(3.0)
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-CENTRE_AND_CORNERS = np.vstack([np.zeros((1, 2)), _CORNERS])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +34,7 @@ class InPlane:
         reduced: (e, 4 n, 4 n) stiffness.
         modes: (e, b, 4 n) amplitudes of the assumed resultants.
         at: (e, p, 6, b) resultants N (xx yy xy) and M of unit amplitudes at p points:
-            the centre, then for quadrilaterals the corners.
+            the centre of the area, then for quadrilaterals the corners.
     """
 
     reduced: Float64
@@ -186,7 +185,10 @@ def _quadrilateral(shape: Facet, section: ShellSection) -> InPlane:
     work[:, 5:, 8:] = force * there[:, None, None, 3]
     modes = np.linalg.solve(flexible, work)
     stiffness = work.transpose(0, 2, 1) @ modes
-    points = _resultant_modes(along, CENTRE_AND_CORNERS - centre[:, None])
+    # At the centre of the area the resultants are the mean ones: Nastran's "centre".
+    corners = _CORNERS - centre[:, None]
+    points = np.concatenate([np.zeros_like(corners[:, :1]), corners], axis=1)
+    points = _resultant_modes(along, points)
     at = np.zeros((*points.shape[:2], 6, 10))
     at[:, :, :3, :5] = points * there[:, None, None, :1]
     at[:, :, 3:, 5:] = points * there[:, None, None, 3:4]
@@ -207,11 +209,7 @@ def _flexibility(modes: Float64, weight: Float64, compliance: Float64) -> Float6
 
 def _natural_directions(shape: Facet) -> Float64:
     """(e, 2, 2) unit vectors along xi and eta at the centre."""
-    x = shape.xy
-    along = 0.25 * np.stack(
-        [x[:, 1] + x[:, 2] - x[:, 0] - x[:, 3], x[:, 2] + x[:, 3] - x[:, 0] - x[:, 1]],
-        axis=1,
-    )
+    along = natural_vectors(shape)
     return along / np.linalg.norm(along, axis=2, keepdims=True)
 
 

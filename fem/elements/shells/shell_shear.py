@@ -38,7 +38,7 @@ the moments at the grids balance under MSC's displacements.
 import numpy as np
 
 from fem.arrays import Float64
-from fem.elements.shells.shell_geometry import Facet
+from fem.elements.shells.shell_geometry import Facet, natural_vectors
 from fem.properties.shell_section import ShellSection, bending_along
 
 TWIST_SHARE = 1.0 / 40.0
@@ -120,10 +120,7 @@ def _quadrilateral(
     mean = np.stack([0.5 * (lower + upper), 0.5 * (left + right)], axis=1)
     slope = np.stack([0.5 * (upper - lower), 0.5 * (right - left)], axis=1)
     x = shape.xy
-    jacobian = 0.25 * np.stack(
-        [x[:, 1] + x[:, 2] - x[:, 0] - x[:, 3], x[:, 2] + x[:, 3] - x[:, 0] - x[:, 1]],
-        axis=1,
-    )
+    jacobian = natural_vectors(shape)
     twist = 0.25 * (x[:, 0] - x[:, 1] + x[:, 2] - x[:, 3])
     inverse = np.linalg.inv(jacobian)
     uniform = inverse @ mean

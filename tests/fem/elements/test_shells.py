@@ -14,6 +14,7 @@ from fem.properties.laminate import Laminate
 from fem.properties.shells import ShellProperty, sections
 
 E, NU = 1e6, 0.25
+CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
 # MacNeal and Harder's patch: irregular inner quadrilateral.
 PATCH = np.array(
     [
@@ -311,3 +312,34 @@ def test_drilling_stiffness_scales_with_k6rot_and_keeps_rigid_motions_free():
     np.testing.assert_allclose(k2 - k0, 3.0 * (k1 - k0), atol=1e-6)
     g = 7e10 / 2.6
     assert (k1 - k0)[5, 5] == pytest.approx(1e-6 * g * 0.02 * 2.0, rel=1e-3)
+
+
+@settings(max_examples=30, deadline=None)
+@given(seed=st.integers(0, 10**6), warp=st.floats(-0.2, 0.2))
+def test_sides_of_a_warped_quadrilateral_stretch_in_a_linear_field(seed, warp):
+    """u = H x: the mean of t . H t over opposite sides t is the strain at the centre.
+
+    Rotations of the grids play no part, neither does a rotation of the whole.
+    """
+    rng = np.random.default_rng(seed)
+    first, second = np.array([1.0, 0.1]), np.array([rng.uniform(-0.5, 0.5), 0.8])
+    flat = 0.5 * (CORNERS[:, :1] * first + CORNERS[:, 1:] * second)
+    xyz = np.c_[flat, warp * np.array([1.0, -1.0, 1.0, -1.0])]
+    field = rng.normal(size=(3, 3))
+    block = shells(xyz, np.arange(4)[None], isotropic_property(E, NU, 0.01))
+    u = np.c_[xyz @ field.T, rng.normal(size=(4, 3))]
+    found = block.resultants()[0, 0, :3] @ u.ravel()
+    sides = 0.5 * (np.roll(xyz, -1, axis=0) - xyz)
+    stretch = np.einsum("ki,ij,kj->k", sides, field, sides)
+    along = 0.5 * (stretch[0] + stretch[2]), 0.5 * (stretch[1] + stretch[3])
+    plane = np.zeros((2, 2))
+    plane[0, 0], plane[1, 1] = along
+    sheared = 0.25 * first @ (field + field.T)[:2, :2] @ second
+    plane[0, 1] = plane[1, 0] = 0.5 * sheared
+    inverse = np.linalg.inv(0.5 * np.stack([first, second]))
+    strain = inverse @ plane @ inverse.T
+    axes = block.shape.axes[0]
+    strain = axes[:2, :2] @ strain @ axes[:2, :2].T
+    vector = np.array([strain[0, 0], strain[1, 1], 2.0 * strain[0, 1]])
+    expected = block.section.membrane[0] @ vector
+    np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(expected).max())
