@@ -24,6 +24,7 @@ from pydantic import (
 )
 
 from drake_landing.case.bushing import Bushing
+from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
@@ -204,6 +205,10 @@ class Airframe(Section):
         260.0,
         gt=0,
         le=5000,
+    )
+    damping: AirframeDamping | None = Field(
+        default=None,
+        description="damping beside the deck's, or instead of it; default: the deck's",
     )
     residual_vectors: bool = Field(
         default=False,

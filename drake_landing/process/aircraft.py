@@ -6,6 +6,8 @@ from functools import partial
 from pathlib import Path
 
 from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.damping import with_damping
+from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.case.schema import Airframe, Case, Matrices
 from drake_landing.gears.data import LandingGear
@@ -38,7 +40,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             topology=airframe.topology or "",
             deck=deck,
             units=airframe.units,
-            read=read,
+            read=_damped(read, airframe.damping),
             gears=tuple(case.gears),
             monitoring=airframe.monitoring,
             scenario=_with_lift_nodes(case.scenario),
@@ -57,7 +59,15 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         scenario=_with_lift_nodes(case.scenario, written.lift_nodes),
         interface=tuple(sorted({*written.interface, *airframe.interface})),
         parametric=model,
+        read=_damped(read_deck, airframe.damping),
     )
+
+
+def _damped(
+    read: Callable[[Path], Deck], damping: AirframeDamping | None
+) -> Callable[[Path], Deck]:
+    """Reading with the damping of the case."""
+    return lambda path: with_damping(read(path), damping)
 
 
 def _gears(case: Case, written: WrittenAircraft) -> tuple[LandingGear, ...]:

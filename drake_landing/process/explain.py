@@ -16,6 +16,7 @@ import scipy.sparse as sp
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.basis import Basis
 from drake_landing.airframe.body import check_nodes, modal_body
+from drake_landing.airframe.damping import damping_story
 from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_free_flight, check_mass
 from drake_landing.airframe.gear_checks import check_gears
@@ -170,6 +171,7 @@ def _airframe(
         f"flies toward {axes.forward}, up is {axes.up}, units {case.airframe.units}",
     )
     yield _line("", f"elastic modes '{case.airframe.select}', {case.airframe.basis}")
+    yield _line("damping", damping_story(structure))
     points = ", ".join(f"{n} ({grid})" for n, grid in aircraft.monitoring.items())
     yield _line("points", f"{points}: accelerations of both models")
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.body import AirframeModel, check_nodes, load_airframe
-from drake_landing.airframe.deck_units import check_units, in_deck_units
+from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_mass
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.airframe.load_shapes import load_model
@@ -31,21 +31,16 @@ from drake_landing.parts.stress import stress_point_notices
 from drake_landing.parts.watch import PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import FullResponse, full_response
+from drake_landing.process.landing_deck import check_landing_deck, write_landing_deck
 from drake_landing.progress import Reporter
 from drake_landing.results.comparison import RunLabel, comparison_table
 from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.late_extremes import flagged, late_extremes
 from drake_landing.results.result import ProcessResult, on_grid
 from drake_landing.results.stages import Stages
-from drake_landing.transient.deck import (
-    model_selections,
-    transient_deck,
-    write_transient_deck,
-)
 from drake_landing.transient.extremes import worst_elements
 from drake_landing.transient.practices import rigid
 from drake_landing.transient.step_error import expected_step_error
-from fem.deck.units import units_of
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
 from systems.tools.compiled import compiled_before
@@ -106,7 +101,10 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     flight = _fly_and_respond(case, aircraft, airframe, swing, cache, stages, practices)
     history, loads, full = flight.history, flight.loads, flight.full
     stages.begin("writing the deck of the transient")
-    write_landing_deck(out / "landing_sol109.bdf", case, aircraft, airframe, loads)
+    deck = out / "landing_sol109.bdf"
+    worst = tables.worst_elements(full.parts.judged, 1.0, 1)["id"].tolist()
+    write_landing_deck(deck, case, aircraft, airframe, loads, worst)
+    deck_checked = check_landing_deck(deck, case, airframe, loads)
 
     stages.begin("comparing")
     label = RunLabel(
@@ -137,6 +135,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         step=step,
         swing=swing,
         late=flight.late,
+        deck_checked=deck_checked,
         practices=full.practices,
         notices=(
             *aircraft.notices,
@@ -240,25 +239,6 @@ def _fly(
         case.bushing,
     )
     return fly(landing, aircraft.scenario, simulation, points, R_AB, progress, settling)
-
-
-def write_landing_deck(
-    path: Path,
-    case: Case,
-    aircraft: Aircraft,
-    airframe: AirframeModel,
-    loads: AttachmentLoads,
-) -> None:
-    """The complete SOL 109 deck of this landing, in the units of the user's deck."""
-    lines = transient_deck(
-        aircraft.deck,
-        in_deck_units(loads, units_of(aircraft.units)),
-        airframe.displacement_axes(loads.node_id),
-        output=list(aircraft.monitoring.values()),
-        selections=model_selections(airframe.structure.subcase),
-        title=f"{case.name}: landing, attachment loads of the multibody run",
-    )
-    write_transient_deck(path, lines)
 
 
 def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:

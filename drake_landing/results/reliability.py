@@ -2,10 +2,12 @@
 
 from typing import TYPE_CHECKING
 
-_NAMED = 4  # late extremes that are named
+from drake_landing.airframe.damping import damping_story
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult
+
+_NAMED = 4  # late extremes that are named
 
 
 def reliability(result: "ProcessResult") -> list[tuple[str, str]]:
@@ -13,6 +15,8 @@ def reliability(result: "ProcessResult") -> list[tuple[str, str]]:
     return [
         ("time step", str(result.step)),
         ("duration", _duration(result)),
+        ("deck of the transient", result.deck_checked),
+        ("damping", damping_story(result.airframe.structure)),
     ]
 
 

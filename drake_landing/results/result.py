@@ -33,6 +33,7 @@ class ProcessResult:
         parts: what the parts see.
         step: what the time step of the transient is expected to cost.
         swing: period of the lowest elastic mode within bounds, s.
+        deck_checked: what reading the written deck back has shown.
         late: extremes in the last swing, see `late_extremes`.
         practices: the three practices side by side, where they were asked for.
         comparison: table of `comparison.csv`.
@@ -54,6 +55,7 @@ class ProcessResult:
     step: StepError
     swing: float
     late: pd.DataFrame
+    deck_checked: str
     practices: Practices | None = None
     notices: tuple[str, ...] = ()
     stages: Stages = field(default_factory=Stages, repr=False)

@@ -7,15 +7,16 @@ every attachment node is one TLOAD1 with its DAREA, in the node's displacement f
 and TABLED1. Real numbers are written in large fields with ten digits.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 import numpy.typing as npt
 
 from drake_landing.landing.handover import AttachmentLoads
 from fem.deck.case_control import Subcase
-from fem.deck.lexer import read_cards
+from fem.deck.lexer import read_cards, without_cards
 from fem.deck.sections import split_sections
 from fem.deck.source import Line, read_source
 from fem.errors import InputError
@@ -25,6 +26,7 @@ Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
 _FIRST_ID = 900001
+_WIDTH = 72  # characters of a line of Nastran's
 _PER_LINE = 8  # entries of a SET or grid list per line
 
 
@@ -36,6 +38,11 @@ def transient_deck(
     output: Sequence[int],
     selections: Sequence[str] = (),
     title: str = "LANDING",
+    head: Sequence[str] = (),
+    elements: Sequence[int] = (),
+    left_out: Collection[str] = (),
+    params: Mapping[str, float] | None = None,
+    dropped: Collection[str] = (),
 ) -> Iterable[str]:
     """Lines of the deck.
 
@@ -47,12 +54,23 @@ def transient_deck(
         output: grids whose displacements and accelerations are printed.
         selections: case control lines of the model, such as "SPC = 1".
         title: first line of every page.
+        head: remarks at the top.
+        elements: whose forces and stresses are printed.
+        left_out: names of cards of the source that were ignored.
+        params: PARAM values that are added.
+        dropped: PARAM names of the source that are left out.
 
     Raises:
         InputError: the source cannot be read.
     """
     sections = split_sections(read_source(source).lines, str(source))
-    bulk = _until_enddata(sections.bulk)
+    params = params or {}
+    bulk = without_cards(
+        _until_enddata(sections.bulk),
+        lambda card: (
+            card.name in left_out or (card.name == "PARAM" and card.field(1) in dropped)
+        ),
+    )
     time, load = loads.held()
     components = np.concatenate(
         [
@@ -62,17 +80,26 @@ def transient_deck(
         axis=-1,
     )
     first = _free_ids(bulk, 2 + components[0].size)
+    for text in head:
+        yield from (f"$ {line}" for line in wrap(text, _WIDTH - 2))
     yield from ("SOL 109", "CEND", f"TITLE = {title[:60].upper()}", *selections)
     yield from (
         line.text
         for line in sections.case_control
-        if line.text.upper().split(",")[0].strip() == "PARAM"
+        if (words := [w.strip() for w in line.text.upper().split(",")])[0] == "PARAM"
+        and words[1] not in dropped
     )
     yield from _set_lines(1, sorted(output))
     yield from ("DISPLACEMENT = 1", "ACCELERATION = 1")
+    if elements:
+        yield from _set_lines(2, sorted(elements))
+        yield from ("FORCE = 2", "STRESS = 2")
     yield from (f"DLOAD = {first}", f"TSTEP = {first}", "BEGIN BULK")
     yield from _step_cards(first, len(loads.time) - 1, loads.step)
     yield from _load_cards(first, loads.node_id, time, components)
+    for name, value in params.items():
+        yield _large("PARAM", name, float(value))[0]
+        yield "*"
     yield "$ The model"
     yield from (line.text for line in bulk)
     yield "ENDDATA"

@@ -6,7 +6,7 @@ continuation, whatever format the lines have.
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from fem.deck.replication import repetitions, replicate
@@ -65,6 +65,24 @@ class Bulk:
 def read_cards(lines: Iterable[Line]) -> Bulk:
     """Cards of bulk data lines, up to ENDDATA."""
     return _Reader().read(lines)
+
+
+def without_cards(
+    lines: Iterable[Line], unwanted: Callable[[RawCard], bool]
+) -> list[Line]:
+    """Lines up to ENDDATA without those of some cards; comments stay."""
+    reader = _Reader()
+    owned: list[tuple[Line, RawCard | None]] = []
+    for line in lines:
+        text = line.text.split("$")[0]
+        if not text or text.isspace():
+            owned.append((line, None))
+            continue
+        reader.take(line, text.upper())
+        if reader.bulk.has_enddata:
+            break
+        owned.append((line, reader.card))
+    return [line for line, card in owned if card is None or not unwanted(card)]
 
 
 class _Reader:

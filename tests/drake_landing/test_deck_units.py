@@ -13,7 +13,7 @@ from drake_landing.case.reading import parse_case
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.process.aircraft import prepare_aircraft
-from drake_landing.process.run import write_landing_deck
+from drake_landing.process.landing_deck import write_landing_deck
 from drake_landing.reduced.command import reduce_deck
 from fem.deck.reader import read_deck
 from fem.errors import InputError
