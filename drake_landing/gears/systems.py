@@ -225,7 +225,9 @@ def _connect_gear(
         _connect(builder, kinematics, f"pitch_{name}", damper, "pitch")
         _connect(builder, damper, "torque", forces, f"pitch_{name}")
     if gear.shock_absorber.bearing_friction > 0:
-        _add_side_load(builder, gear, kinematics, systems.tires, absorber)
+        _add_side_load(
+            builder, gear, kinematics, systems.tires, systems.brakes, absorber
+        )
 
 
 def _add_side_load(
@@ -233,13 +235,19 @@ def _add_side_load(
     gear: LandingGear,
     kinematics: WheelKinematics,
     tires: dict[str, Any],
+    brakes: dict[str, Any],
     absorber: Any,
 ) -> None:
-    side_load = SideLoad(gear.wheel_names)
+    offsets = gear.wheel_offsets * len(gear.axles)
+    wheels = dict(zip(gear.wheel_names, offsets))
+    side_load = SideLoad(wheels, [name for name in wheels if name in brakes])
     builder.AddNamedSystem(f"side_load_{gear.name}", side_load)
     _connect(builder, kinematics, f"strut_axis_{gear.name}", side_load, "strut_axis")
     for wheel in gear.wheel_names:
+        _connect(builder, kinematics, f"wheel_{wheel}", side_load, f"wheel_{wheel}")
         _connect(builder, tires[wheel], "wrench", side_load, f"tire_{wheel}")
+        if wheel in brakes:
+            _connect(builder, brakes[wheel], "torque", side_load, f"brake_{wheel}")
     _connect(builder, side_load, "side_load", absorber, "side_load")
 
 

@@ -12,7 +12,11 @@ def coulomb_force(rate: Scalar, limit: Scalar, transition: float) -> Scalar:
 
 
 def bearing_reactions(
-    side_load: Scalar, s: Scalar, axle_arm: float, bearing_distance: float
+    side_load: Scalar,
+    s: Scalar,
+    axle_arm: float,
+    bearing_distance: float,
+    moment: tuple[Scalar, Scalar] = (0.0, 0.0),
 ) -> Scalar:
     """Sum of both bearing reactions of a piston bent by a side load at the axle, N.
 
@@ -24,7 +28,14 @@ def bearing_reactions(
         s: m, stroke.
         axle_arm: m, axle below the lower bearing at full extension.
         bearing_distance: m, between the bearings at full extension.
+        moment: N m, at the axle: bending with the side load, and across that.
     """
+    force, apart = abs(side_load), bearing_distance + s
     arm = axle_arm - s
-    lever = (arm if arm > 0.0 else 0.0) / (bearing_distance + s)
-    return abs(side_load) * (1.0 + 2.0 * lever)
+    upper = ((arm if arm > 0.0 else 0.0) * force + moment[0]) / apart
+    across = moment[1] / apart
+    return _length(upper, across) + _length(force + upper, across)
+
+
+def _length(x: Scalar, y: Scalar) -> Scalar:
+    return abs(x) if y == 0.0 else sqrt(x * x + y * y)

@@ -29,7 +29,8 @@ def ShockAbsorber_(T):
         | port | size | unit | frame and sign |
         |---|---|---|---|
         | in `strut_state` | 2 | m, m/s | stroke, rate; positive in compression |
-        | in `side_load` (optional) | 1 | N | load across the strut at the axle |
+        | in `side_load` (optional) | 3 | N, N m | force across the strut at the axle,
+          moment bending with it, moment across that; of `SideLoad` |
         | out `force` | 1 | N | along the strut, positive apart |
         | out `energy` | 1 | J | stored, zero at zero stroke |
         | out `dissipated_power` | 1 | W | >= 0 |
@@ -52,7 +53,7 @@ def ShockAbsorber_(T):
                 self.DeclareNumericParameter(BasicVector_[T](parameters.tunables))
             )
             self._state = self.DeclareVectorInputPort("strut_state", 2)
-            self._side_load = self.DeclareVectorInputPort("side_load", 1)
+            self._side_load = self.DeclareVectorInputPort("side_load", 3)
             parameter = self.numeric_parameter_ticket(self._tunables)
             state = {self._state.ticket(), parameter}
             initial = parameters.initial_state
@@ -140,9 +141,9 @@ def ShockAbsorber_(T):
             """stroke, rate, side load, tunables, state."""
             s, rate = self._state.Eval(context).tolist()
             p = context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
-            side_load = 0.0
+            side_load = [0.0, 0.0, 0.0]
             if p[6] > 0.0 and self._side_load.HasValue(context):
-                side_load = self._side_load.Eval(context).tolist()[0]
+                side_load = self._side_load.Eval(context).tolist()
             return s, rate, side_load, p, self._own_state(context)
 
         def _own_state(self, context):
@@ -152,7 +153,8 @@ def ShockAbsorber_(T):
 
         def _calc_law(self, context, value):
             """The parts of the force."""
-            value.set_value(self._law.forces(*self._inputs(context)))
+            s, rate, (side, *moment), p, state = self._inputs(context)
+            value.set_value(self._law.forces(s, rate, side, p, state, moment))
 
         def _calc_force(self, context, output):
             output.SetAtIndex(0, self._forces.Eval(context).total)

@@ -260,8 +260,12 @@ class StrutLaw:
         side_load: Scalar,
         tunables: list[Scalar],
         state: list[Scalar] | None = None,
+        moment: tuple[Scalar, Scalar] = (0.0, 0.0),
     ) -> StrutForces:
-        """The parts of the force at stroke (m), rate (m/s) and side load (N)."""
+        """The parts of the force at stroke (m), rate (m/s) and side load (N).
+
+        The moment (N m) is that of the side load's surplus, see `bearing_reactions`.
+        """
         p = self._p
         f0, _, _, compression, rebound, seal, bearing = tunables
         gas = self.gas_force(s, tunables, state)
@@ -278,7 +282,9 @@ class StrutLaw:
             )
         friction = 0.0 * rate
         if seal > 0.0 or bearing > 0.0:
-            reactions = bearing_reactions(side_load, s, p.axle_arm, p.bearing_distance)
+            reactions = bearing_reactions(
+                side_load, s, p.axle_arm, p.bearing_distance, moment
+            )
             friction = coulomb_force(
                 rate, seal * gas + bearing * reactions, p.friction_transition
             )

@@ -65,7 +65,7 @@ SYSTEMS = {
     ShockAbsorber: lambda: ShockAbsorber(ABSORBER),
     Brake: lambda: Brake(BrakeParameters(torque=1e3)),
     BogiePitch: lambda: BogiePitch(BogiePitchParameters()),
-    SideLoad: lambda: SideLoad(list(WHEELS)),
+    SideLoad: lambda: SideLoad(dict.fromkeys(WHEELS, 0.0), list(WHEELS)),
     WheelKinematics: lambda: WheelKinematics(PLANT, WHEELS, MIXED, SPINS, SPINS),
     GearForces: lambda: GearForces(
         PLANT, WHEELS, MIXED, SPINS, SPINS, elastic_legs=True

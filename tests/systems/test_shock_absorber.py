@@ -184,7 +184,7 @@ def evaluate(system, ports, strut_state, side_load=None, change=None):
     context = system.CreateDefaultContext()
     system.GetInputPort("strut_state").FixValue(context, strut_state)
     if side_load is not None:
-        system.GetInputPort("side_load").FixValue(context, [side_load])
+        system.GetInputPort("side_load").FixValue(context, [side_load, 0.0, 0.0])
     if change:
         change(context)
     return [system.GetOutputPort(name).Eval(context) for name in ports]
