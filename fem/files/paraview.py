@@ -79,6 +79,9 @@ def _cells(structure: Structure) -> Cells:
             continue
         n, topology = grids.shape[1], CARDS[block.card].topology
         vtk = topology.cell(n) if topology else None
+        if topology and vtk is None:  # with some of its mid-sides: as its corners
+            n = topology.corners
+            grids, vtk = grids[:, :n], topology.cell(n)
         if topology is None or vtk is None:
             continue
         conn.append(grids[:, topology.order.get(n, range(n))].ravel())

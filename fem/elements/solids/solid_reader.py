@@ -8,12 +8,14 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
+from fem.deck.records import CARDS
 from fem.deck.references import refer, table, where
 from fem.elements.solids.element_axes import (
     hexa_axes,
     penta_axes,
     stress_rotation,
 )
+from fem.elements.solids.incomplete import without
 from fem.elements.solids.integration import integration_of
 from fem.elements.solids.isoparametric import jacobians
 from fem.elements.solids.solid import Matrices, Shape, Solid
@@ -28,19 +30,17 @@ if TYPE_CHECKING:
 def read_solids(
     deck: "Deck", points: Points, card: str, shapes: Sequence[Shape]
 ) -> list[Solid]:
-    """Blocks of one card, one per number of nodes.
+    """Blocks of one card, one for each set of mid-sides and each integration.
 
     Raises:
-        InputError: undefined references, unsupported numbers of nodes, turned inside
-            out; all of them.
+        InputError: undefined references, elements turned inside out; all of them.
     """
     rows = table(deck, card).sort_values("eid", ignore_index=True)
     if rows.empty:
         return []
     nodes = [np.asarray(n, dtype=np.int64) for n in rows["nodes"]]
-    count = np.array([len(n) if (n > 0).all() else -1 for n in nodes])
-    problems = _unsupported(rows, card, count, shapes)
-    blocks = []
+    count = np.array([len(n) for n in nodes])
+    problems, blocks = [], []
     for shape in shapes:
         chosen = np.flatnonzero(count == shape.nodes)
         if not len(chosen):
@@ -49,12 +49,28 @@ def read_solids(
             for some, variant in _by_integration(deck, rows.iloc[chosen], shape):
                 grids = np.stack([nodes[i] for i in chosen[some]])
                 part = rows.iloc[chosen[some]].reset_index(drop=True)
-                blocks.append(_block(deck, points, part, variant, grids))
+                for own, kind in _by_mid_sides(grids, variant):
+                    here = part.iloc[own].reset_index(drop=True)
+                    there = grids[own][:, grids[own[0]] > 0]
+                    blocks.append(_block(deck, points, here, kind, there))
         except InputError as error:
             problems += error.problems
     if problems:
         raise InputError(problems)
     return blocks
+
+
+def _by_mid_sides(grids: Int64, shape: Shape) -> list[tuple[Int64, Shape]]:
+    """Positions of the elements (e, n) by the mid-sides that are there."""
+    patterns, which = np.unique(grids > 0, axis=0, return_inverse=True)
+    topology = CARDS[shape.card].topology
+    edges = topology.edges if topology else ()
+    found = []
+    for k, there in enumerate(patterns):
+        middles = there[shape.corners :]
+        kind = shape if middles.all() else without(shape, edges, middles)
+        found.append((np.flatnonzero(which.ravel() == k), kind))
+    return found
 
 
 def _by_integration(
@@ -68,22 +84,6 @@ def _by_integration(
         way = integration_of(shape, integ, isop) or shape.matrices
         groups.setdefault(way, []).append(k)
     return [(np.array(at), replace(shape, matrices=way)) for way, at in groups.items()]
-
-
-def _unsupported(
-    rows: pd.DataFrame, card: str, count: Int64, shapes: Sequence[Shape]
-) -> list[str]:
-    known = [shape.nodes for shape in shapes]
-    bad = np.flatnonzero(~np.isin(count, known))
-    if not len(bad):
-        return []
-    expected = " or ".join(str(n) for n in known)
-    return [
-        f"{where(card, rows.iloc[bad[0]])}"
-        + (f" and {len(bad) - 1} more" if len(bad) > 1 else "")
-        + f": mid-side nodes are given in part or are not supported, expected "
-        f"{expected} nodes"
-    ]
 
 
 def _block(

@@ -9,9 +9,10 @@ from shell_model import scattered
 
 from benchmarks.verification.runner import run
 from fem.deck.reader import read_deck
-from fem.deck.records.solids import PENTA, PYRAMID
+from fem.deck.records.solids import HEXA, PENTA, PYRAMID
 from fem.elements.solids.element_axes import penta_axes, stress_rotation
 from fem.elements.solids.hexa import HEXA8, HEXA20, hexa8_full
+from fem.elements.solids.incomplete import without
 from fem.elements.solids.isoparametric import (
     HEX20_POINTS,
     HEX_CORNERS,
@@ -373,6 +374,34 @@ def test_what_psolid_asks_in_vain_is_said(tmp_path):
     assert "STRESS 'GAUSS' is not done" in notices[1]
     path.write_text(_CUBE.format("BUBBLE", "GRID", "REDUCED"))
     assert solid_notices(read_deck(path)) == []
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_brick_without_mid_sides_is_the_one_with_them_held_straight(seed):
+    """Any set of mid-sides: same energy, mass and volume, no force in rigid motion."""
+    rng = np.random.default_rng(seed)
+    there = rng.uniform(size=12) < 0.5
+    shape = without(HEXA20, HEXA.edges, there)
+    kept = np.r_[np.full(8, True), there]
+    corners = HEX_CORNERS + 0.1 * rng.uniform(-1, 1, (8, 3))
+    whole = _with_middles(corners, HEXA.edges)
+    xyz, count = whole[kept], int(kept.sum())
+    small = solids(shape, xyz, np.arange(count)[None], rho=2.0)
+    large = solids(HEXA20, whole, np.arange(20)[None], rho=2.0)
+    u = rng.normal(size=(20, 3))
+    for k, (i, j) in enumerate(HEXA.edges):
+        if not there[k]:
+            u[8 + k] = 0.5 * (u[i] + u[j])
+    part = u[kept].ravel()
+    energy = part @ small.stiffness()[0] @ part
+    assert energy == pytest.approx(u.ravel() @ large.stiffness()[0] @ u.ravel())
+    assert small.volume() == pytest.approx(large.volume())
+    mass = np.diag(small.mass(coupled=False)[0])[::3]
+    assert mass.sum() == pytest.approx(2.0 * small.volume()[0])
+    stress = small.stresses().matrix[0] @ part
+    np.testing.assert_allclose(
+        stress, large.stresses().matrix[0] @ u.ravel(), rtol=1e-9
+    )
 
 
 def test_one_row_of_bricks_bends_like_a_beam():
