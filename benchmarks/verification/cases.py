@@ -14,6 +14,7 @@ from benchmarks.verification import (
     nafems_beams,
     nafems_plates,
     patches,
+    plate_shear,
     quadratic_solids,
     rigid_motion,
     sections,
@@ -92,6 +93,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         nafems_plates.tapered_membrane,
         nafems_plates.solids,
         nafems_plates.plate_transients,
+        plate_shear.plate_reactions,
     ),
     "MacNeal and Harder": (
         macneal_harder.straight_beam,
