@@ -2,19 +2,21 @@
 
     OPENBLAS_NUM_THREADS=1 python -m benchmarks.leg_flexibility
 
-The conceptual aircraft at 10 ft/s on its main gears; laws of the tyres and shock
-absorbers as in the paper, so that the legs are all that differs. The oracle has rigid
-legs on a rotational spring between fitting and airframe, the bushing attachment, stiff
-in translation, whose rotational stiffness gives the same frequency of the whole gear.
-Loads of one main gear at its attachment node, in B, increments.
+First the response of one leg, clamped at its root, to the drag of a spin-up, beside
+Duhamel's integral. Then the conceptual aircraft at 10 ft/s on its main gears; laws of
+tyres and shock absorbers as in the paper, so that the legs are all that differs, and
+all of the gear but 1 kg swings. Loads of one main gear at its attachment node, in B.
 """
 
 import json
+import math
 import os
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from collections.abc import Iterator
 from functools import cache
+from itertools import product
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -27,10 +29,13 @@ from drake_landing.landing.trial import Trial, try_scenario
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.reference.d150.gears import landing_gears
 from systems.airframe.modal_body import ModalBody
+from tests.drake_landing.landing_gears import aircraft_gears
+from tests.drake_landing.test_legs import Rig, duhamel, pulse_response
 
 FREQUENCIES = (None, 20.0, 16.0, 12.0, 10.0)  # Hz
 DAMPING_RATIO = 0.03
 GEAR = "main_left"
+HERTZ = 12.0
 _LEAST = {"mass": 1.0, "inertia": [1.0, 1.0, 1.0]}
 
 
@@ -81,8 +86,25 @@ def row(trial: Trial) -> str:
     )
 
 
+def pulses() -> Iterator[str]:
+    """Response factors of a leg under spin-up pulses, and the closed form."""
+    yield "| rise over period | damping | aft | Duhamel | forward | Duhamel |"
+    yield "|---|---|---|---|---|---|"
+    for zeta, ratio in product((0.0, 0.05), (0.1, 0.3, 0.6, 1.0, 2.0)):
+        law = {"frequency": HERTZ, "damping_ratio": zeta}
+        rig = Rig(aircraft_gears()[1], fore_aft=law)
+        rise = ratio / HERTZ
+        time, force = pulse_response(rig, 1 / HERTZ, rise)
+        exact = [duhamel(t, 2 * math.pi * HERTZ, zeta, rise) for t in time]
+        yield (
+            f"| {ratio:g} | {zeta:g} | {force.max():.3f} | {max(exact):.3f} | "
+            f"{-force.min():.3f} | {-min(exact):.3f} |"
+        )
+
+
 def main() -> None:
-    """Prints the table."""
+    """Prints the tables."""
+    print(*pulses(), sep="\n", end="\n\n")
     print("| leg | Fx aft / forward, kN | My, kNm | CPU s |\n|---|---|---|---|")
     landing(None, 0.01)
     for frequency in FREQUENCIES:

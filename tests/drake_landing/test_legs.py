@@ -215,7 +215,7 @@ def test_beam_leg_in_a_gear_has_its_stiffness_at_the_axle():
     assert_allclose(rig.law.stiffness[0], k * arm**2 * np.eye(2), rtol=1e-9)
 
 
-def _pulse_response(rig, period, rise):
+def pulse_response(rig, period, rise):
     """Root moment over drag at the axle: a quarter sine that ends at its peak."""
     hinge = rig.bodies.hinges["fore_aft"]
     row = hinge.velocity_start()
@@ -239,7 +239,7 @@ def _pulse_response(rig, period, rise):
     return time, angle * rig.law.stiffness[0, 0, 0] / arm
 
 
-def _duhamel(t, omega, zeta, rise):
+def duhamel(t, omega, zeta, rise):
     """Elastic force per peak drag of a mass on a spring under the quarter sine."""
     free = omega * np.sqrt(1 - zeta**2)
     end = min(t, rise)
@@ -270,10 +270,10 @@ def test_spin_up_pulse_gives_the_response_of_a_one_mass_leg(zeta, ratio):
     law = {"frequency": hertz, "damping_ratio": zeta}
     rig = Rig(aircraft_gears()[1], fore_aft=law)
     rise = ratio / hertz
-    time, force = _pulse_response(rig, 1 / hertz, rise)
+    time, force = pulse_response(rig, 1 / hertz, rise)
     assert_allclose((force.max(), -force.min()), FACTORS[zeta][ratio], rtol=0.01)
     some = slice(None, None, max(1, len(time) // 25))
-    exact = [_duhamel(t, 2 * np.pi * hertz, zeta, rise) for t in time[some]]
+    exact = [duhamel(t, 2 * np.pi * hertz, zeta, rise) for t in time[some]]
     assert_allclose(force[some], exact, atol=1e-5)
 
 
