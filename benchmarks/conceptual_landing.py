@@ -9,6 +9,7 @@ from drake_landing.airframe.body import load_airframe
 from drake_landing.case.reading import parse_case
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.reference.d150.gears import landing_gears
 from systems.airframe.modal_body import ModalBody
 
 SINK_RATE = 1.8288  # m/s
@@ -29,7 +30,7 @@ def modal_body(modes: int) -> ModalBody:
 
 
 def make_landing(
-    body: ModalBody, modes: int, energy_budget: bool = True
+    body: ModalBody, modes: int, energy_budget: bool = True, elastic_legs: bool = False
 ) -> LandingDiagram:
     """Its diagram, with the monitoring points of the model.
 
@@ -37,11 +38,16 @@ def make_landing(
         body: of `modal_body(modes)`, or made from it.
         modes: as there.
         energy_budget: with the audit.
+        elastic_legs: those of the reference aircraft; else rigid ones, as in the paper.
     """
     aircraft = _aircraft(modes)[1]
+    gears = aircraft.gears
+    if elastic_legs:
+        legs = [gear.leg for gear in landing_gears()]
+        gears = [g.model_copy(update={"leg": leg}) for g, leg in zip(gears, legs)]
     return MakeLandingDiagram(
         body,
-        aircraft.gears,
+        gears,
         monitor_nodes=list(aircraft.monitoring.values()),
         energy_budget=energy_budget,
     )

@@ -1,6 +1,6 @@
 """Integrators: error of the peak loads against evaluations and processor time.
 
-    python -m benchmarks.integrators [--modes 73]
+    python -m benchmarks.integrators [--modes 73] [--legs]
 
 One second of the conceptual aircraft's landing: spin-up, spring-back, first rebound.
 Error: worst of the peaks of F_x and F_z at the attachment nodes, over the largest of
@@ -51,9 +51,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Integrators of a landing.")
     parser.add_argument("--modes", type=int, default=73)
     parser.add_argument("--radau", action="store_true", help="slow")
+    parser.add_argument("--legs", action="store_true", help="elastic ones")
     chosen = parser.parse_args()
     body = modal_body(chosen.modes)
-    landing = make_landing(body, chosen.modes)
+    landing = make_landing(body, chosen.modes, elastic_legs=chosen.legs)
     mass = body.mass + sum(gear.mass for gear in landing.gears)
     sink_energy = 0.5 * mass * SINK_RATE**2
     timed(landing, "runge_kutta3", 1e-2)  # compiles what is not yet compiled
