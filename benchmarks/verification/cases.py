@@ -110,6 +110,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         curved_shells.curved_hemisphere,
         curved_shells.plates_of_any_thickness,
         curved_shells.pressurised_cylinder,
+        curved_shells.single_elements,
     ),
     "Landing gear": (drop_tests.main_gear,),
 }

@@ -9,17 +9,19 @@ strains are
     k_kl  = (a_k . b,l + a_l . b,k + n,k . u,l + n,l . u,k) / 2
     2 e_k3 = a_k . b + n . u,k
 
-Rigid motions leave all of them zero on any shape. Full integration would lock, so
-strains are assumed from samples (assumed natural strains). Membrane strain and
-curvature along a natural direction of the quadrilateral are sampled at its two Gauss
-points and at three places across, their shear at 2 x 2 points; those of the triangle at
-its three points of integration. Transverse shear is sampled along the edges, at two
-points each, where any quadratic deflection is met exactly, that of the quadrilateral
-also as a mean over its middle (MITC8). Uniform parts are added such that uniform stress
-does the work that it does on the strains of the displacements. There is no spurious
-mode; with straight edges and mid-sides in their middle uniform strains and curvatures
-are exact on any shape (patch test). Plates converge with the fourth order at any
-thickness; curved triangles are stiffer than quadrilaterals on coarse meshes.
+and, measured in the lengths of the surface at height z, curvatures are less by what the
+bent surface makes of the membrane strain (`_in_axes`). Rigid motions leave all of them
+zero on any shape. Full integration would lock, so strains are assumed from samples
+(assumed natural strains). Membrane strain and curvature along a natural direction of
+the quadrilateral are sampled at its two Gauss points and at three places across, their
+shear at 2 x 2 points; those of the triangle at its three points of integration.
+Transverse shear is sampled along the edges, at two points each, where any quadratic
+deflection is met exactly, that of the quadrilateral also as a mean over its middle
+(MITC8). Uniform parts are added such that uniform stress does the work that it does on
+the strains of the displacements. There is no spurious mode; with straight edges and
+mid-sides in their middle uniform strains and curvatures are exact on any shape (patch
+test). Plates converge with the fourth order at any thickness; curved triangles are
+stiffer than quadrilaterals on coarse meshes.
 
 References: Huang and Hinton, A new nine node degenerated shell element with enhanced
 membrane and shear interpolation, IJNME 22 (1986); Park and Stanley, A curved C0 shell
@@ -59,16 +61,28 @@ _PIECE = 256  # elements that are integrated at a time
 SURFACES = {"CQUAD8": QUAD8, "CTRIA6": TRIA6}
 
 
-def _in_axes(at: Base, plane: Sequence[Float64], shear: Float64) -> Float64:
+def _in_axes(
+    at: Base, bend: Float64, plane: Sequence[Float64], shear: Float64
+) -> Float64:
     """(e, q, 8, 6 n) in element axes from covariant strains.
+
+    Lengths grow with the height z over a bent surface: of the strain (e + z k) that is
+    measured in those of the surface, e bend^T + bend e are no curvature.
 
     Args:
         at: the points.
+        bend: (e, q, 2, 2) of the surface.
         plane: 11, 22, 2 x 12, each (e, q, 12 n), membrane strain beside curvature.
         shear: (e, q, 2, 6 n) with the normal.
     """
     both = cartesian(at.gradient) @ np.stack(plane, axis=2)
-    return np.concatenate([*np.split(both, 2, axis=-1), at.gradient @ shear], axis=2)
+    stretch, curvature = np.split(both, 2, axis=-1)
+    (xx, xy), (yx, yy) = np.moveaxis(bend, (-2, -1), (0, 1))
+    zero = np.zeros_like(xx)
+    rows = [[2.0 * xx, zero, xy], [zero, 2.0 * yy, yx], [2.0 * yx, 2.0 * xy, xx + yy]]
+    grown = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    curvature = curvature - grown @ stretch
+    return np.concatenate([stretch, curvature, at.gradient @ shear], axis=2)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,12 +190,18 @@ class CurvedShell(Shell):
         fits = [fitted(powers, where, p) for where, powers in self.surface.strains]
         plane = [f @ s for f, s in zip(fits, self._samples)]
         shear = np.einsum("qks,esn->eqkn", self.surface.shear_fit(p), self._samples[3])
-        return _in_axes(at, plane, shear)
+        return _in_axes(at, self._bend(p, at), plane, shear)
 
     def _direct(self, p: Float64, at: Base) -> Float64:
         """(e, q, 8, 6 n) strains of the displacements and rotations themselves."""
         shear = [self.covariant_shear(p, np.tile(d, (len(p), 1))) for d in np.eye(2)]
-        return _in_axes(at, self._plane([p] * 3), np.stack(shear, axis=2))
+        plane = self._plane([p] * 3)
+        return _in_axes(at, self._bend(p, at), plane, np.stack(shear, axis=2))
+
+    def _bend(self, p: Float64, at: Base) -> Float64:
+        """(e, q, 2, 2) d n_j / d x_i at [i, j] of the surface itself, element axes."""
+        slope = self.surface.slopes(p) @ self.directors[:, None]
+        return at.gradient @ np.einsum("eqki,eqji->eqkj", slope, at.axes)
 
     def _plane(self, at: Sequence[Float64]) -> list[Float64]:
         """Covariant membrane strain beside curvature: 11, 22, 2 x 12."""
