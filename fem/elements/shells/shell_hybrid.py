@@ -116,7 +116,10 @@ def _joined(section: ShellSection) -> tuple[Float64, Float64]:
 
 def _compliance(joined: Float64) -> Float64:
     """(e, 6, 6) inverse of [A B; B D], finite also without stiffness in a direction."""
-    scale = np.sqrt(np.einsum("eii->ei", joined).clip(1e-300))
+    stiff = np.einsum("eii->ei", joined).reshape(len(joined), 2, -1)
+    largest = stiff.max(axis=2, keepdims=True)
+    floor = np.where(largest > 0.0, 1e-9 * largest, 1.0)
+    scale = np.sqrt(np.maximum(stiff, floor)).reshape(len(joined), -1)
     scaled = joined / (scale[:, :, None] * scale[:, None, :])
     # A material without stiffness in a direction (MAT2) has no finite compliance.
     value = np.linalg.eigvalsh(scaled)

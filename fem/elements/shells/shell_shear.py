@@ -50,6 +50,9 @@ def residual_flexibility(shape: Facet, section: ShellSection) -> Float64:
     length = np.linalg.norm(edge, axis=-1)
     direction = edge / np.where(length == 0.0, 1.0, length)[..., None]
     along = bending_along(section, direction)
+    # Without bending stiffness along an edge (MAT2) its strip is as good as cut.
+    stiffness = np.einsum("eii->e", section.bending)[:, None]
+    along = np.maximum(along, 1e-9 * stiffness)
     share: Float64 = length**2 / (24.0 * np.where(along > 0.0, along, np.inf))
     scaled = share[..., None] * direction
     residual: Float64 = np.matmul(scaled.transpose(0, 2, 1), direction)

@@ -1,5 +1,7 @@
 """Transverse shear of shells that are not square, and of laminates, against theory."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -144,9 +146,7 @@ def test_linear_resultants_leave_the_strain_across_to_the_membrane(aspect):
     angle_ply = cross_ply()
     a = np.array([[90e9, 30e9, 20e9], [30e9, 40e9, 5e9], [20e9, 5e9, 35e9]]) * 0.035
     d = a * 0.035**2 / 12.0 * np.array([[1.2, 1, 1], [1, 0.8, 1], [1, 1, 1.0]])
-    prop = angle_ply.__class__(
-        **{**vars(angle_ply), "membrane": a, "bending": d, "coupling": np.zeros((3, 3))}
-    )
+    prop = replace(angle_ply, membrane=a, bending=d, coupling=np.zeros((3, 3)))
     xyz = np.array([[0, 0, 0], [aspect, 0, 0], [aspect, 1, 0], [0, 1, 0.0]])
     x = facet(xyz[None]).axes[:, 0]
     block = shells(xyz, np.arange(4)[None], prop, angle=-np.arctan2(x[:, 1], x[:, 0]))
@@ -213,3 +213,18 @@ def test_reactions_of_a_supported_plate(corners, shape, middle, worst):
         half = count // 2
         assert found[half] == pytest.approx(exact[half], rel=middle)
         assert np.abs(found - exact)[1:-1].max() < worst * exact.max()
+
+
+@pytest.mark.parametrize("corners", [3, 4])
+def test_bending_in_one_direction_alone_and_rigid_shear(corners):
+    """Corrugated sheet: no stiffness along y, no shear flexibility (blank MID3)."""
+    prop = replace(
+        isotropic_property(E, 0.0, 0.01),
+        bending=np.diag([E / 12.0, 0.0, 0.0]),
+        shear_flexibility=np.zeros((2, 2)),
+    )
+    xyz = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0.0]])[:corners]
+    block = shells(xyz, np.arange(corners)[None], prop)
+    stiffness = block.stiffness()[0]
+    assert np.isfinite(stiffness).all()
+    assert np.linalg.eigvalsh(stiffness)[0] > -1e-9 * np.abs(stiffness).max()
