@@ -4,7 +4,7 @@ The deck is read, its matrices are assembled and factorised, the gears are built
 just above the runway; modes and landing are left to `run`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -21,6 +21,10 @@ from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_free_flight, check_mass
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.airframe.load_shapes import load_model
+from drake_landing.airframe.pulses import GearPulses
+from drake_landing.airframe.relevance import ModalModel
+from drake_landing.airframe.selection import expected_pulses
+from drake_landing.airframe.truncation import WANTED, below, frequency_for, point_errors
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
@@ -71,14 +75,19 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         check_mass(structure)
         check_units(structure, aircraft)
         remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
-        cost, step = None, None
+        cost, step, truncated = None, None, ""
         if thorough or structure.size <= _AT_ONCE:
             check_free_flight(structure)
             cost = _cost(structure)
             shapes = load_model(structure, aircraft, Cache.of_user())
-            step = expected_step_error(case, aircraft, structure, shapes)
+            pulses = expected_pulses(
+                structure, case.airframe, aircraft, aircraft.scenario
+            )
+            step = expected_step_error(case, aircraft, shapes, pulses)
+            truncated = _truncated(case, shapes, pulses)
         _dry_run(case, aircraft, structure)
-    lines = [*_airframe(case, aircraft, structure, cost), *_gears(aircraft)]
+    lines = [*_airframe(case, aircraft, structure, cost, truncated)]
+    lines += _gears(aircraft)
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
     if step is not None:
@@ -146,8 +155,25 @@ def _line(head: str, text: str) -> str:
     return f"  {head:<{_HEAD}}{text}"
 
 
+def _truncated(case: Case, shapes: ModalModel, pulses: Sequence[GearPulses]) -> str:
+    """What a selection by frequency is expected to cost, and what would cost little."""
+    select = case.airframe.select
+    if select.kind != "below" or case.airframe.basis != "full-modes":
+        return ""
+    errors = point_errors(shapes, below(shapes, select.value), pulses)
+    text = f": accelerations expected to be up to {errors.max():.0%} off"
+    if errors.max() <= WANTED:
+        return text
+    enough = frequency_for(shapes, pulses)
+    return text + (f"; below {enough:.0f} Hz up to 5 %" if enough else "")
+
+
 def _airframe(
-    case: Case, aircraft: Aircraft, structure: Structure, cost: Cost | None
+    case: Case,
+    aircraft: Aircraft,
+    structure: Structure,
+    cost: Cost | None,
+    truncated: str,
 ) -> Iterator[str]:
     x, y, z = structure.rigid_mass.center
     name = aircraft.deck.name if case.airframe.deck else aircraft.name
@@ -170,7 +196,9 @@ def _airframe(
         "",
         f"flies toward {axes.forward}, up is {axes.up}, units {case.airframe.units}",
     )
-    yield _line("", f"elastic modes '{case.airframe.select}', {case.airframe.basis}")
+    yield _line(
+        "", f"elastic modes '{case.airframe.select}', {case.airframe.basis}{truncated}"
+    )
     yield _line("damping", damping_story(structure))
     points = ", ".join(f"{n} ({grid})" for n, grid in aircraft.monitoring.items())
     yield _line("points", f"{points}: accelerations of both models")

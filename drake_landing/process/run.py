@@ -17,6 +17,9 @@ from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_mass
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.airframe.load_shapes import load_model
+from drake_landing.airframe.relevance import ModalModel
+from drake_landing.airframe.selection import expected_pulses, modal_model
+from drake_landing.airframe.truncation import frequency_for, load_errors
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import case_text
@@ -38,6 +41,7 @@ from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.late_extremes import flagged, late_extremes
 from drake_landing.results.result import ProcessResult, on_grid
 from drake_landing.results.stages import Stages
+from drake_landing.results.truncation import Truncation
 from drake_landing.transient.extremes import worst_elements
 from drake_landing.transient.practices import rigid
 from drake_landing.transient.step_error import expected_step_error
@@ -86,7 +90,8 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     check_mass(structure)
     stages.begin("expected error of the time step")
     shapes = load_model(structure, aircraft, cache)
-    step = expected_step_error(case, aircraft, structure, shapes)
+    pulses = expected_pulses(structure, case.airframe, aircraft, aircraft.scenario)
+    step = expected_step_error(case, aircraft, shapes, pulses)
     stages.begin("eigenmodes")
     airframe = load_airframe(
         case.airframe,
@@ -134,6 +139,10 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         parts=full.parts,
         step=step,
         swing=swing,
+        truncation=Truncation(
+            gears=_load_errors(aircraft, airframe, shapes, history, loads),
+            enough_hz=frequency_for(shapes, pulses),
+        ),
         late=flight.late,
         deck_checked=deck_checked,
         practices=full.practices,
@@ -148,6 +157,28 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     )
     write_all(result, out, full.watch)
     return result
+
+
+def _load_errors(
+    aircraft: Aircraft,
+    airframe: AirframeModel,
+    shapes: ModalModel,
+    history: LandingHistory,
+    loads: AttachmentLoads,
+) -> dict[str, float]:
+    """Gear -> expected error of its load by modes that are left out."""
+    closing = {}
+    for gear in aircraft.gears:
+        tyre = max(history.tyre[w]["deflection"].max() for w in gear.wheel_names)
+        stroke = history.strut[gear.name]["stroke"].max()
+        closing[gear.attachment_node] = float(stroke + max(tyre, 0.0))
+    errors = load_errors(
+        shapes,
+        modal_model(airframe.structure, airframe.basis, aircraft),
+        {int(n): loads.load[:, i] for i, n in enumerate(loads.node_id)},
+        closing,
+    )
+    return {gear.name: errors[gear.attachment_node] for gear in aircraft.gears}
 
 
 def _assemble(structure: Structure) -> tuple[int, int]:

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from drake_landing.airframe.damping import damping_story
+from drake_landing.results.truncation import truncation_line
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult
@@ -13,6 +14,7 @@ _NAMED = 4  # late extremes that are named
 def reliability(result: "ProcessResult") -> list[tuple[str, str]]:
     """What, and what is known of it."""
     return [
+        ("modes", truncation_line(result)),
         ("time step", str(result.step)),
         ("duration", _duration(result)),
         ("deck of the transient", result.deck_checked),

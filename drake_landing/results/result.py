@@ -13,6 +13,7 @@ from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import POINT, LandingHistory
 from drake_landing.parts.watch import PartsFound
 from drake_landing.results.stages import Stages
+from drake_landing.results.truncation import Truncation
 from drake_landing.transient.practices import Practices
 from drake_landing.transient.step_error import StepError
 from fem.recovery.envelope import Envelope
@@ -33,6 +34,7 @@ class ProcessResult:
         parts: what the parts see.
         step: what the time step of the transient is expected to cost.
         swing: period of the lowest elastic mode within bounds, s.
+        truncation: what the modes that are left out cost.
         deck_checked: what reading the written deck back has shown.
         late: extremes in the last swing, see `late_extremes`.
         practices: the three practices side by side, where they were asked for.
@@ -55,6 +57,7 @@ class ProcessResult:
     step: StepError
     swing: float
     late: pd.DataFrame
+    truncation: Truncation
     deck_checked: str
     practices: Practices | None = None
     notices: tuple[str, ...] = ()

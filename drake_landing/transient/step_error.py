@@ -17,13 +17,11 @@ import scipy.sparse as sp
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.pulses import GearPulses
 from drake_landing.airframe.relevance import ModalModel, modal_accelerations
-from drake_landing.airframe.selection import expected_pulses
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import resample, time_grid
 from drake_landing.transient.response import SCHEMES
 from fem.algebra.damping import Damping
 from fem.errors import InputError
-from fem.model.structure import Structure
 from fem.response.direct import direct_transient
 from fem.response.observation import Observation
 from fem.response.system import sampled_load
@@ -97,21 +95,22 @@ def step_error(
 
 
 def expected_step_error(
-    case: Case, aircraft: Aircraft, structure: Structure, model: ModalModel
+    case: Case, aircraft: Aircraft, model: ModalModel, pulses: Sequence[GearPulses]
 ) -> StepError:
     """Of the step of a case.
 
     Args:
         case: its step and scheme.
-        aircraft, structure: of the case.
+        aircraft: of the case.
         model: of `load_model`.
+        pulses: of `expected_pulses`.
 
     Raises:
         InputError: it is above `REFUSED` and above what the case accepts.
     """
     found = step_error(
         model,
-        expected_pulses(structure, case.airframe, aircraft, aircraft.scenario),
+        pulses,
         list(aircraft.monitoring),
         case.transient.step,
         case.transient.scheme,
