@@ -16,26 +16,16 @@ if TYPE_CHECKING:
 def member_sets(deck: "Deck", card: str, sid: int) -> list[int]:
     """Ids of the sets that `sid` stands for: itself or those of its ADD card.
 
+    Sets that are not there constrain nothing; the deck's notices name them.
+
     Args:
         deck: the deck.
         card: "SPC" or "MPC".
         sid: the set that case control selects.
-
-    Raises:
-        InputError: the set, or a set that it adds, does not exist.
     """
-    rows, unions = table(deck, card), table(deck, f"{card}ADD")
-    present = set(rows["sid"].astype(int))
+    unions = table(deck, f"{card}ADD")
     chosen = unions[unions["sid"] == sid]
-    sets = [int(s) for members in chosen["sets"] for s in members] or [sid]
-    absent = [s for s in sets if s not in present]
-    if absent:
-        known = sorted(present | set(unions["sid"].astype(int)))
-        raise InputError(
-            f"{card} set {s} is not in the deck; it has {known or 'none'}"
-            for s in absent
-        )
-    return sets
+    return [int(s) for members in chosen["sets"] for s in members] or [sid]
 
 
 def freedoms_of(deck: "Deck", points: Points, card: str) -> Int64:

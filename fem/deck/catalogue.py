@@ -8,39 +8,61 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
         (
             "Printing, plots, ordering",
             "CBARAO CONTRLT DTI ECHOOFF ECHOON GEOMIN MDLPRM OUTRCV PLOTEL3 PLOTEL4 "
-            "SEQGP USET USET1 UXVEC VIEW VIEW3D WEIGHT",
+            "SEQGP USET USET1 UXVEC VIEW VIEW3D WEIGHT BOUTPUT CAMERA GMCURV GMSURF "
+            "SEUSET SEUSET1 STREAMLINE SWLDPRM ELIST CYJOIN EXTRN MONSUM MONDSP1",
         ),
         (
             "Design optimisation",
             "DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN DTABLE "
-            "DVCREL1 DVMREL1 DVPREL1 DVPREL2",
+            "DVCREL1 DVCREL2 DVMREL1 DVMREL2 DVPREL1 DVPREL2 DVGRID DVBSHAP DVSHAP "
+            "DRESP DCONADD DLINK2 DOPTPRM DVGEOM BNDGRID BEADVAR TOPVAR MODTRAK "
+            "DESVAR1",
         ),
         (
             "Frequency response, random response, complex modes, buckling",
             "EIGB EIGC FREQ FREQ1 FREQ2 FREQ3 FREQ4 FREQ5 RANDPS RANDT1 RCROSS RLOAD1 "
-            "RLOAD2 TABLED2 TABRND1",
+            "RLOAD2 TABLED2 TABRND1 TABRNDG RANDT2 ACSRCE EIGP RANDVAR ROTORG ROTORSE "
+            "RSPINR RSPINT UNBALNC RGYRO",
         ),
         (
-            "Temperatures, nonlinear solutions",
-            "MATS1 NLPARM NLPCI TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 TABLEST TEMP "
-            "TEMPD TEMPP1 TEMPP3 TEMPRB TSTEPNL",
+            "Temperatures, nonlinear solutions, properties that depend on frequency",
+            "CREEP MATHE MATHP MATS1 MATS3 MATS8 MATF1 MATT1 MATT2 MATT3 MATT8 MATT9 "
+            "NLPARM NLPCI NLSTEP NLCNTL TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 "
+            "TABLEST TEMP TEMPD TEMPP1 TEMPP3 TEMPRB TEMPN1 TSTEPNL TSTEP1 NLRGAP "
+            "NOLIN1 NOLIN2 NOLIN3 NOLIN4 PELAST PDAMPT PBUSHT EPOINT TF",
         ),
-        ("Aeroelasticity", "MONPNT1 MONPNT2 MONPNT3 SET2 SET3 SPLINE1"),
+        (
+            "Heat",
+            "MAT4 MAT5 MATT4 MATT5 QBDY1 QBDY2 QBDY3 QHBDY QVECT QVOL CONV CONVM "
+            "PCONV PCONVM CHBDYE CHBDYG CHBDYP PHBDY RADBC RADBND RADCAV RADLST RADM "
+            "RADMT RADMTX RADSET VIEWEX TEMPBC",
+        ),
+        (
+            "Contact, glue, bolts",
+            "BCBODY BCBODY1 BCBMRAD BCBZIER BCHANGE BCMATL BCMOVE BCNURBS BCNURB2 "
+            "BCONP BCONPRG BCONPRP BCPARA BCPATCH BCPROP BCPROP1 BCRIGID BCRGSRF "
+            "BCRPARA BCTABLE BCTABL1 BCTADD BCTPARA BCTPARM BCTSET BCONECT BCAUTOP "
+            "BCSCAP BFRIC BGADD BGPARM BGSET BLSEG BSURF BSURFS BOLT BOLTFOR BOLTLD "
+            "BOLTSEQ BWIDTH",
+        ),
+        (
+            "Aeroelasticity",
+            "AECOMP AECOMPL AEDW AEFACT AEFORCE AEGRID AELINK AELIST AELISTC AEPARM "
+            "AEPRESS AEQUAD4 AERO AEROS AESCALE AESTAT AESURF AESURFS AETRIA3 CAERO1 "
+            "CAERO2 CAERO3 CAERO4 CAERO5 CSSCHD DIVERG DMI DMIJ DMIJI DMIK FLFACT "
+            "FLUTTER GUST MKAERO1 MKAERO2 MONCNCM MONGRP MONPNT1 MONPNT2 MONPNT3 "
+            "PAERO1 PAERO2 PAERO3 PAERO4 PAERO5 SET2 SET3 SPBLND1 SPBLND2 "
+            "SPLINE1 SPLINE2 SPLINE3 SPLINE4 SPLINE5 SPLINE6 SPLINE7 SPLINEX SPLINRB "
+            "TRIM TRIM2",
+        ),
     )
 }
 WITHOUT_EFFECT = frozenset().union(*PASSED_OVER.values())
 
 # Why cards are not supported, by the beginning of their names.
 _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
-    (
-        ("MATT",),
-        "materials do not depend on temperature here; without it, the constants of "
-        "the MAT card hold",
-    ),
-    (("MATS", "CREEP", "MATHP", "PLPLANE", "PLSOLID"), "materials are linear here"),
-    (("PELAST", "PDAMPT", "PBUSHT"), "springs and dampers are linear here"),
-    (("NLRGAP", "NOLIN", "CGAP", "BCTABLE", "BCONP", "BSURF"), "no contact here"),
-    (("CAERO", "AERO", "AESURF", "SPLINE", "PAERO"), "no aerodynamics here"),
+    (("PLPLANE", "PLSOLID"), "materials are linear here"),
+    (("CGAP",), "no contact here"),
 )
 
 
@@ -52,7 +74,8 @@ def reason(name: str) -> str:
     return ""
 
 
-# Property cards that are harmless once their elements are passed over.
+# Property cards that are harmless where no element has them, and once their elements
+# are passed over.
 PROPERTY_OF: dict[str, str] = {
     "CBEND": "PBEND",
     "CBEAM3": "PBEAM3",
@@ -68,4 +91,13 @@ PROPERTY_OF: dict[str, str] = {
     "CAERO1": "PAERO1",
     "CHBDYP": "PHBDY",
     "CCONEAX": "PCONEAX",
+    "CACINF3": "PACINF",
+    "CHACAB": "PACABS",
+    "CHACBR": "PACBAR",
+    "CQUADR": "PCOMPLS",
+    "CRAC2D": "PRAC2D",
+    "CRAC3D": "PRAC3D",
+    "CPLSTS4": "PPLANE",
+    "CTRAX3": "PAXSYMH",
+    "CDUM8": "PDUM8",
 }

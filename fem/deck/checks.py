@@ -1,6 +1,7 @@
 """Checks of a whole deck: references, duplicates, selected sets, coordinate systems."""
 
 from collections.abc import Iterable, Mapping
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -110,12 +111,27 @@ def _references(tables: Tables) -> list[str]:
     for name, card in TABLES.items():
         for item in card.columns.values():
             if item.targets:
+                shown = _used_only(tables, name)
                 names = [t for word in item.targets for t in targets_of(word)]
                 known = np.concatenate([ids(tables, [t], key_of(t)) for t in names])
                 problems += _missing(
-                    tables, name, item.name, known, _what(item), blank=item.blank
+                    shown, name, item.name, known, _what(item), blank=item.blank
                 )
     return problems
+
+
+def _used_only(tables: Tables, name: str) -> Tables:
+    """Tables with a property's rows that elements use: others are not looked at."""
+    users = [
+        card
+        for card, record in TABLES.items()
+        if (pid := record.columns.get("pid")) and name in pid.targets
+    ]
+    if not users:
+        return tables
+    table = tables[name]
+    used = table["pid"].isin(ids(tables, users, "pid"))
+    return {**tables, name: table.loc[used].reset_index(drop=True)}
 
 
 def _what(item: Field) -> str:
@@ -156,9 +172,22 @@ _COMBINED: dict[str, tuple[str, str, tuple[str, ...]]] = {
 }
 
 
-def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> list[str]:
+class Selected(NamedTuple):
+    """What is wrong with the selected sets, and what is remarkable."""
+
+    problems: list[str]
+    notices: list[str]
+
+
+# Sets of constraints that are selected and not there: nothing is constrained by them,
+# as in Nastran, which says so (message 2047).
+_MAY_BE_ABSENT = frozenset({"spc", "mpc"})
+
+
+def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected:
     """Sets that the case control selects and that neither deck nor parts have."""
     problems: list[str] = []
+    notices: list[str] = []
     for attribute, names, solutions in _SELECTED:
         if solutions and sol not in solutions:
             continue
@@ -167,14 +196,23 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> list[str
             known.update(ids(part.cards, names, "sid").tolist())
         for subcase in deck.case_control:
             number = getattr(subcase, attribute)
-            if number not in known:
+            if number not in known and attribute in _MAY_BE_ABSENT:
+                notices.append(
+                    f"{attribute.upper()} = {number} is selected and not in the deck: "
+                    "it constrains nothing"
+                )
+            elif number not in known:
                 problems.append(
                     f"{deck.path}: subcase {subcase.id}: {attribute.upper()} = "
                     f"{number} is not defined; expected a set of "
                     f"{', '.join(names[:3])}"
                 )
-        problems += _members(deck, attribute)
-    return list(dict.fromkeys(problems))
+        absent = _members(deck, attribute)
+        if attribute in _MAY_BE_ABSENT:
+            notices += [f"{text}; it constrains nothing" for text in absent]
+        else:
+            problems += absent
+    return Selected(list(dict.fromkeys(problems)), list(dict.fromkeys(notices)))
 
 
 def _members(deck: Deck, attribute: str) -> list[str]:

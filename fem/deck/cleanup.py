@@ -12,6 +12,9 @@ from fem.deck.values import Malformed, integer
 
 Tables = dict[str, pd.DataFrame]
 
+SCALAR_ELEMENTS = tuple(
+    f"{kind}{form}" for kind in ("CELAS", "CDAMP", "CMASS") for form in "12"
+)
 _REPEATABLE = ("GRID", "SPOINT", "CORD")
 
 
@@ -25,8 +28,9 @@ def clean(tables: Tables, ignored: Sequence[RawCard], notices: list[str]) -> Non
     """
     for name in _REPEATABLE:
         _drop_repetitions(tables, name, notices)
-    for name, column in (("SPC", "g"), ("ASET", "id"), ("QSET", "id")):
-        _drop_skipped(tables, name, column)
+    _add_scalar_points(tables, notices)
+    for name in ("SPC", "ASET", "QSET", "OMIT"):
+        _unroll(tables, name, "g" if name == "SPC" else "id", notices)
     _drop_loads_on(_element_ids(ignored), tables, notices)
 
 
@@ -44,14 +48,50 @@ def _drop_repetitions(tables: Tables, name: str, notices: list[str]) -> None:
         tables[name] = table[~again].reset_index(drop=True)
 
 
-def _drop_skipped(tables: Tables, name: str, column: str) -> None:
-    """Points that a THRU skips over need not exist."""
+def _add_scalar_points(tables: Tables, notices: list[str]) -> None:
+    """Scalar points that only their use on scalar elements defines (component 0)."""
+    known = ids(tables, ("GRID", "SPOINT"), "id")
+    found: dict[int, tuple[str, int]] = {}
+    for name in SCALAR_ELEMENTS:
+        table = tables[name]
+        for end in "12":
+            used = table[(table[f"c{end}"] == 0) & (table[f"g{end}"] > 0)]
+            used = used[~used[f"g{end}"].isin(known)]
+            for point, file, line in zip(used[f"g{end}"], used["file"], used["line"]):
+                found.setdefault(int(point), (file, int(line)))
+    if not found:
+        return
+    points = sorted(found)
+    rows = [(*found[point], point) for point in points]
+    new = pd.DataFrame(rows, columns=["file", "line", "id"])
+    tables["SPOINT"] = pd.concat([tables["SPOINT"], new], ignore_index=True)
+    shown = ", ".join(map(str, points[:8])) + (", ..." if len(points) > 8 else "")
+    notices.append(
+        f"{len(points)} scalar points are defined by scalar elements that use them: "
+        + shown
+    )
+
+
+def _unroll(tables: Tables, name: str, column: str, notices: list[str]) -> None:
+    """Ranges to the points that exist; points that a THRU skips over need not."""
     table = tables[name]
     if "thru" not in table:
         return
-    known = ids(tables, ("GRID", "SPOINT"), "id")
-    absent = table["thru"] & ~np.isin(table[column].to_numpy(np.int64), known)
-    tables[name] = table[~absent].drop(columns="thru").reset_index(drop=True)
+    known = np.unique(ids(tables, ("GRID", "SPOINT"), "id"))
+    single = table["thru"].isna().to_numpy()
+    points, rows = [table[column].to_numpy(np.int64)[single]], [np.flatnonzero(single)]
+    for row in np.flatnonzero(~single):
+        inside = table["thru"][row].among(known)
+        points.append(inside)
+        rows.append(np.full(len(inside), row))
+        if not len(inside):
+            place = f"{table['file'][row]}:{table['line'][row]}"
+            notices.append(f"{place}: {name}: none of the points of its range exists")
+    order = np.concatenate(rows)
+    sort = np.argsort(order, kind="stable")
+    unrolled = table.iloc[order[sort]].drop(columns="thru").reset_index(drop=True)
+    unrolled[column] = np.concatenate(points)[sort]
+    tables[name] = unrolled
 
 
 def _element_ids(cards: Sequence[RawCard]) -> npt.NDArray[np.int64]:

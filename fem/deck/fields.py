@@ -1,14 +1,35 @@
 """Typed access to the fields of one card, for cards of irregular shape."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
+import numpy as np
+
+from fem.arrays import Int64
 from fem.deck.lexer import RawCard
 from fem.deck.values import Malformed, components, integer, real, word
 
 T = TypeVar("T")
 
 _MOST_IDS = 10_000_000  # in one THRU
+
+
+@dataclass(frozen=True)
+class IdRange:
+    """first THRU last BY step EXCEPT some: of these ids those that exist."""
+
+    first: int
+    last: int
+    step: int = 1
+    excepted: frozenset[int] = frozenset()
+
+    def among(self, known: Int64) -> Int64:
+        """The members among ids (n,), which ascend."""
+        start, stop = np.searchsorted(known, (self.first, self.last + 1))
+        inside = known[start:stop]
+        inside = inside[(inside - self.first) % self.step == 0]
+        return inside[~np.isin(inside, list(self.excepted))]
 
 
 class Fields:
@@ -56,39 +77,58 @@ class Fields:
 
     def ids(self, start: int, name: str) -> tuple[list[int], list[int]]:
         """Ids to the end of the card: those written, and those between THRU and BY."""
-        written: list[int] = []
+        single, ranges = self.ranges(start, name)
         between: list[int] = []
+        for part in ranges:
+            if part.last - part.first > _MOST_IDS * part.step:
+                raise Malformed(
+                    f"field {name}: found {part.first} THRU {part.last}, expected a "
+                    f"range of at most {_MOST_IDS} ids"
+                )
+            inside = range(part.first, part.last + 1, part.step)
+            single.append(part.first)
+            if (part.last - part.first) % part.step == 0 and len(inside) > 1:
+                single.append(part.last)
+            between += (i for i in inside[1:] if i != part.last)
+        excepted = {i for part in ranges for i in part.excepted}
+        return (
+            [i for i in dict.fromkeys(single) if i not in excepted],
+            [i for i in between if i not in excepted],
+        )
+
+    def ranges(self, start: int, name: str) -> tuple[list[int], list["IdRange"]]:
+        """Ids to the end of the card that stand alone, and ranges by THRU and BY."""
+        written: list[int] = []
+        ranges: list[IdRange] = []
         texts = [text for text in self.card.fields[start:] if text]
         k = 0
         while k < len(texts):
             if texts[k] == "THRU":
                 if not written or k + 1 == len(texts):
                     raise Malformed(f"field {name}: THRU needs a number on both sides")
-                first, last = written[-1], self._id(texts[k + 1], name)
+                first, last = written.pop(), self._id(texts[k + 1], name)
                 step, k = 1, k + 2
                 if k < len(texts) and texts[k] == "BY":
                     if k + 1 == len(texts):
                         raise Malformed(f"field {name}: BY needs a number")
                     step, k = self._id(texts[k + 1], name), k + 2
-                if last < first or step < 1 or last - first > _MOST_IDS * step:
+                if last < first or step < 1:
                     raise Malformed(
                         f"field {name}: found {first} THRU {last} BY {step}, expected "
                         "an ascending range"
                     )
-                between += range(first + step, last, step)
-                if (last - first) % step == 0 and last > first:
-                    written.append(last)
+                ranges.append(IdRange(first, last, step))
             elif texts[k] == "EXCEPT":
-                excepted = {self._id(text, name) for text in texts[k + 1 :]}
+                excepted = frozenset(self._id(text, name) for text in texts[k + 1 :])
                 written = [i for i in written if i not in excepted]
-                between = [i for i in between if i not in excepted]
+                ranges = [replace(part, excepted=excepted) for part in ranges]
                 k = len(texts)
             else:
                 written.append(self._id(texts[k], name))
                 k += 1
-        if not written and not between:
+        if not written and not ranges:
             raise Malformed(f"field {name} is blank, expected an integer")
-        return written, between
+        return written, ranges
 
     def _id(self, text: str, name: str) -> int:
         try:

@@ -15,6 +15,7 @@ from fem.deck.values import Malformed
 
 _MOST_UNREAD = 20  # lines that are listed
 _SEPARATOR = re.compile(r"\s*,\s*|\s+")
+_MNEMONIC = re.compile(r"(?!THRU|BY|EXCEPT|ENDT|SKIP)[A-Z][A-Z0-9]*$")
 _NAME = re.compile(r"[A-Z][A-Z0-9_]{0,15}$")
 
 
@@ -123,15 +124,10 @@ class _Reader:
     def take(self, line: Line, text: str) -> None:
         head, data, marker, large = split_line(text)
         width = 4 if large else 8
-        if len(data) > width:
-            self.problem(
-                line,
-                f"{len(data)} data fields in a free-field line, expected at most "
-                f"{width} and a continuation: {text.strip()}",
-            )
-            data = data[:width]
+        # A free-field line with more fields goes on as if it were continued.
+        width *= max(1, -(-len(data) // width))
         if not head or head[0] in "+*":
-            self.continuation(line, text, head, data, marker, large)
+            self.continuation(line, text, head, data, marker, width)
         elif head == "ENDDATA":
             self.bulk.has_enddata = True
         elif head[0] == "=":
@@ -153,13 +149,13 @@ class _Reader:
         head: str,
         data: list[str],
         marker: str,
-        large: bool,
+        width: int,
     ) -> None:
         owner = _owner(head.lstrip("+*").strip(), self.card, self.open_markers)
         if owner is None:
             self.unreadable(line, text, "a continuation without a card")
             return
-        _extend(owner, data, large)
+        _extend(owner, data, width)
         self.open_markers.pop(owner.marker, None)
         self.card, owner.marker = owner, marker
         if marker:
@@ -215,7 +211,9 @@ def _split_free(text: str) -> tuple[str, list[str], str, bool]:
         if not rest[0] or rest[0][0] in "+*":
             marker = rest[0].lstrip("+*")
             rest = rest[1:]
-        if any(rest):
+        if len(rest) == 1 and not marker and _MNEMONIC.match(rest[0]):
+            marker = rest[0]
+        elif any(rest):
             data = parts[1:]
     while data and not data[-1]:
         data.pop()
@@ -231,9 +229,9 @@ def _owner(
     return current
 
 
-def _extend(card: RawCard, data: list[str], large: bool) -> None:
-    """Append a continuation line; it begins a row (a half row in large fields)."""
-    start = card.end if large else -(-card.end // 8) * 8
+def _extend(card: RawCard, data: list[str], width: int) -> None:
+    """Append a line of `width` fields; it begins a row (a half row in large fields)."""
+    start = card.end if width % 8 else -(-card.end // 8) * 8
     card.fields.extend([""] * (start + 1 - len(card.fields)))
     card.fields.extend(data)
-    card.end = start + (4 if large else 8)
+    card.end = start + width

@@ -33,7 +33,7 @@ from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
 from fem.deck.tables import make_tables
 from fem.deck.values import Malformed
-from fem.errors import InputError, nearest
+from fem.errors import InputError
 
 _CLASSES: dict[str, Any] = {
     "PBEAM": PBEAM,
@@ -101,7 +101,9 @@ def read_deck(
         problems[-1] += " are not supported here; expected one bulk data section"
     parts = _superelements(path, sections, ignore, problems)
     if not problems:
-        problems += check_selected(deck, executive.sol, parts.values())
+        found = check_selected(deck, executive.sol, parts.values())
+        problems += found.problems
+        notices += found.notices
     if problems:
         raise InputError(problems)
     if sections.has_control and not bulk.has_enddata and not parts:
@@ -179,6 +181,7 @@ def _set_aside(
     if absent:
         notices.append(f"to be ignored, but not in the deck: {', '.join(absent)}")
     unused: list[str] = []
+    present = frozenset(groups)
     ignored: list[RawCard] = []
     unsupported: list[str] = []
     for name in sorted(groups):
@@ -188,13 +191,13 @@ def _set_aside(
             notices.append(f"{_lines(name, cards)} ignored on request")
         elif name not in _READABLE:
             cards = groups.pop(name)
-            if name in WITHOUT_EFFECT:
+            users = [card for card, prop in PROPERTY_OF.items() if prop == name]
+            if name in WITHOUT_EFFECT or (users and not present.intersection(users)):
                 unused.append(f"{name} ({len(cards)})")
             else:
                 unsupported.append(name)
                 problems.append(
-                    f"{_lines(name, cards)} not supported{reason(name)}"
-                    f"{nearest(name, SUPPORTED) if not reason(name) else ''}"
+                    f"{_lines(name, cards)} not supported{reason(name) or _hint(name)}"
                 )
     if unused:
         notices.append(f"cards without effect here: {', '.join(unused)}")
@@ -204,6 +207,28 @@ def _set_aside(
             "of python -m fem, or airframe.ignore of a case"
         )
     return ignored
+
+
+def _hint(name: str) -> str:
+    """A card that the name may be a slip of: one letter, or two that changed places."""
+    near = [card for card in SUPPORTED if _is_slip(name, card)]
+    return f"; did you mean '{near[0]}'?" if near else ""
+
+
+def _is_slip(name: str, card: str) -> bool:
+    """Whether a name is a card's but for one letter more, less, wrong, or a swap.
+
+    Digits are no slips: CBUSH2D is not a misspelt CBUSH.
+    """
+    if sorted(name) == sorted(card) and len(name) > 3:
+        return sum(a != b for a, b in zip(name, card)) == 2
+    short, long = sorted((name, card), key=len)
+    if len(long) < 4 or len(long) - len(short) > 1:
+        return False
+    at = next((i for i, (a, b) in enumerate(zip(short, long)) if a != b), len(short))
+    same = len(short) == len(long)
+    letters = {long[at : at + 1], short[at : at + 1] if same else ""}
+    return short[at + same :] == long[at + 1 :] and "".join(letters).isalpha()
 
 
 def _lines(name: str, cards: Sequence[RawCard]) -> str:

@@ -1,5 +1,6 @@
 """Lines of a deck with all its INCLUDE files, each with the place it comes from."""
 
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -62,11 +63,11 @@ def _append(
         if found is None:
             source.lines.append(Line(text.strip(), shown, start, missing=True))
             continue
-        file, by_name = found
-        if by_name:
+        file, how = found
+        if how:
             source.notices.append(
-                f"{shown}:{start}: INCLUDE '{name}' is not there; "
-                f"{file} of the same name is read"
+                f"{shown}:{start}: INCLUDE '{name}' is not there; {file}, {how}, "
+                "is read"
             )
         _append(source, file, str(file), home, (*parents, resolved))
 
@@ -105,25 +106,44 @@ def _included_name(texts: list[str], number: int) -> tuple[str, int]:
     return name.split(quote)[0].strip(), last
 
 
-def _find(name: str, folders: tuple[Path, ...]) -> tuple[Path, bool] | None:
-    """The file of that name, and whether only its last part led to it."""
-    wanted = Path(name.replace("\\", "/"))
+def _find(name: str, folders: tuple[Path, ...]) -> tuple[Path, str] | None:
+    """The file of that name, and what led to it where it was not the name as it stands.
+
+    `$NAME` and `${NAME}` are environment variables, as is the logical name before a
+    colon (NAME:file).
+    """
+    wanted = Path(_without_variables(name).replace("\\", "/"))
     for folder in folders:
-        if (file := _regardless_of_case(folder / wanted)) is not None:
-            return file, False
+        if (file := _regardless_of_case(folder, wanted)) is not None:
+            exact = str(file) == str(folder / wanted)
+            return file, "" if exact else "whose name differs in letter case"
     for folder in folders[:2]:
-        if (file := _regardless_of_case(folder / wanted.name)) is not None:
-            return file, True
+        if (file := _regardless_of_case(folder, Path(wanted.name))) is not None:
+            return file, "of the same name"
     return None
 
 
-def _regardless_of_case(path: Path) -> Path | None:
+def _without_variables(name: str) -> str:
+    logical, colon, rest = name.partition(":")
+    # One letter is a drive.
+    if colon and len(logical) > 1 and logical in os.environ:
+        return f"{os.environ[logical]}/{rest}"
+    return os.path.expandvars(name)
+
+
+def _regardless_of_case(folder: Path, wanted: Path) -> Path | None:
+    """The file of a path below a folder, each part as it stands or in other case."""
     try:
-        if path.is_file():
-            return path
-        for file in path.parent.iterdir():
-            if file.name.lower() == path.name.lower() and file.is_file():
-                return file
+        if (folder / wanted).is_file():
+            return folder / wanted
+        found = Path(wanted.anchor) if wanted.is_absolute() else folder
+        for part in wanted.parts[wanted.is_absolute() :]:
+            if part in ("..", ".") or (found / part).exists():
+                found = found / part
+                continue
+            alike = (f for f in found.iterdir() if f.name.lower() == part.lower())
+            if (found := next(alike, None)) is None:
+                return None
+        return found if found.is_file() else None
     except (OSError, ValueError):
-        pass
-    return None
+        return None

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.deck.fields import Fields
+from fem.deck.fields import Fields, IdRange
 from fem.deck.lexer import RawCard
 from fem.deck.records import CARDS, TABLES, Card, table_of
 from fem.deck.regular import read_regular
@@ -123,10 +123,10 @@ def _frame(record: Card, pieces: list[dict[str, list]]) -> pd.DataFrame:
             columns[name][:] = values
     if any("thru" in piece for piece in pieces):
         columns["thru"] = np.array(
-            [flag for piece in pieces for flag in _thru(piece)], dtype=bool
+            [part for piece in pieces for part in _thru(piece)], dtype=object
         )
     return pd.DataFrame(columns)
 
 
-def _thru(piece: dict[str, list]) -> list[bool]:
-    return piece.get("thru") or [False] * len(piece["line"])
+def _thru(piece: dict[str, list]) -> list[IdRange | None]:
+    return piece.get("thru") or [None] * len(piece["line"])

@@ -4,6 +4,7 @@ The file is written under a temporary name and takes its own when it is complete
 Histories of transients are written while they are computed.
 """
 
+from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +19,7 @@ import scipy.sparse as sp
 from fem.arrays import Float64, Int64
 from fem.deck.case_sets import Selection
 from fem.files.aside import written_aside
+from fem.files.finite import require_finite
 from fem.geometry.points import Points
 from fem.model.structure import Structure
 from fem.recovery.elements import ElementTable
@@ -88,14 +90,21 @@ class ResultFile:
         return sum(sizes)
 
     def write(self, name: str, values: npt.ArrayLike) -> None:
-        """A dataset; groups on the way are made."""
-        self.file[name] = np.asarray(values)
+        """A dataset of numbers; groups on the way are made.
+
+        Raises:
+            InputError: it is not finite.
+        """
+        values = np.asarray(values)
+        require_finite(name, values)
+        self.file[name] = values
 
     def write_points(
         self, name: str, points: Points, values: Float64, selection: Selection
     ) -> None:
         """A quantity (g,) or (k, g) of the g-set as (k', 6) or (k, k', 6)."""
         layout = PointLayout(points, selection)
+        require_finite(name, values, _Labels(points))
         layout.describe(self.file, name)
         self.file[name] = layout.grids(values[..., layout.grid_dof])
         if len(layout.scalar_dof):
@@ -104,6 +113,7 @@ class ResultFile:
     def write_table(self, name: str, table: ElementTable, values: Float64) -> None:
         """Element results ([k,] e, c)."""
         group = self._table_group(name, table)
+        _require_finite_table(group, table, values)
         group["value"] = values
 
     def _table_group(self, name: str, table: ElementTable) -> h5py.Group:
@@ -169,6 +179,7 @@ class PointLayout:
         self.scalar_id = points.spoint_id[scalar]
         self.grid_dof = (6 * grid[:, None] + np.arange(6)).reshape(-1)
         self.scalar_dof = 6 * len(points.grid_id) + scalar
+        self.labels = _Labels(points, self.dof)
 
     @property
     def dof(self) -> Int64:
@@ -195,6 +206,33 @@ def _chosen(ids: Int64, wanted: Int64 | None) -> npt.NDArray[np.intp]:
     if wanted is None:
         return np.arange(len(ids))
     return np.flatnonzero(np.isin(ids, wanted))
+
+
+class _Labels(Sequence[str]):
+    """Names of the rows of the g-set, made when they are asked for."""
+
+    def __init__(self, points: Points, rows: Int64 | None = None) -> None:
+        self._points, self._rows = points, rows
+
+    def __len__(self) -> int:
+        return self._points.size if self._rows is None else len(self._rows)
+
+    def __getitem__(self, row: int) -> str:  # pyright: ignore[reportIncompatibleMethodOverride]
+        return self._points.label(int(row if self._rows is None else self._rows[row]))
+
+
+def _require_finite_table(
+    group: h5py.Group,
+    table: ElementTable,
+    values: Float64,
+    time: Float64 | None = None,
+) -> None:
+    """Refuse element results ([t,] e, c) that are infinite; NaN: no such ply."""
+    if np.isinf(values).any():
+        columns = [f"element {i}, {c}" for i in table.id for c in table.columns]
+        flat = values.reshape(*values.shape[:-2], -1)
+        name = (group.name or "").lstrip("/")
+        require_finite(name, flat, columns, time, blanks=True)
 
 
 class PointResponse(Protocol):
@@ -249,6 +287,7 @@ class PointHistory:
     def observe(self, chunk: Chunk) -> None:
         """Write a chunk."""
         values = self._response.values(chunk)
+        require_finite(self._name, values, self._layout.labels, chunk.time)
         at = slice(chunk.first, chunk.first + len(chunk.time))
         grids = 6 * len(self._layout.grid_id)
         self._datasets[0][at] = self._layout.grids(values[:, :grids])
@@ -277,7 +316,10 @@ class TableHistory:
         """Write a chunk."""
         at = slice(chunk.first, chunk.first + len(chunk.time))
         if self._value is not None:
-            self._value[at] = self._response.values(chunk)
+            values = self._response.values(chunk)
+            table = self._response.table
+            _require_finite_table(self._group, table, values, chunk.time)
+            self._value[at] = values
 
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
         """Nothing stays in memory."""

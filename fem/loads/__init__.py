@@ -4,6 +4,7 @@ from fem.loads.dynamic import (
     Excitation,
     dynamic_excitation,
     initial_conditions,
+    table_notices,
     time_steps,
 )
 from fem.loads.static import (
@@ -19,5 +20,6 @@ __all__ = [
     "initial_conditions",
     "static_element_loads",
     "static_load",
+    "table_notices",
     "time_steps",
 ]

@@ -139,6 +139,38 @@ def _function(deck: "Deck", name: str, row: pd.Series) -> TimeFunction:
     )
 
 
+def table_notices(deck: "Deck", subcase: Subcase, end: float) -> list[str]:
+    """What tables give where a run up to `end` (s) goes beyond them.
+
+    As in Nastran, the line through the last two points goes on, before the table and
+    after it; with a delay, the table is asked for times before it.
+    """
+    if not subcase.dload:
+        return []
+    factors = _factors(deck, subcase.dload)
+    rows = deck.cards["TLOAD1"]
+    notices = []
+    for _, row in rows[rows["sid"].isin(factors)].iterrows():
+        table = table_function(deck, int(row["tid"]))
+        delays = {float(row["delay"])}
+        if int(row["delayid"]):
+            cards = deck.cards["DELAY"]
+            delays |= set(cards[cards["sid"] == row["delayid"]]["t"].astype(float))
+        for delay in sorted(delays):
+            beyond = table.continued(-delay, end - delay)
+            if beyond:
+                given = " and ".join(f"{v:.6g} at {t + delay:.6g} s" for t, v in beyond)
+                late = f" (delayed by {delay:.6g} s)" if delay else ""
+                notices.append(
+                    f"{where('TLOAD1', row)}: TABLED1 {int(row['tid'])}{late} covers "
+                    f"{table.x[0] + delay:.6g} to {table.x[-1] + delay:.6g} s of a run "
+                    f"from 0 to {end:.6g} s; beyond, the line of the points at that "
+                    f"end goes on, as in Nastran: it gives {given}; for zero there, "
+                    "add points with zero at that end"
+                )
+    return notices
+
+
 def table_function(deck: "Deck", tid: int) -> Table:
     """TABLED1 of that id.
 

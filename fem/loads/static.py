@@ -8,6 +8,7 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
 from fem.constraints.spc import freedoms
+from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.loads.bar_loads import bar_loads, loads_of_bars
@@ -85,12 +86,35 @@ def static_load(
                 field += factor * accelerations(points, name, rows)
             else:
                 dof, values = _terms(deck, points, name, rows)
+                if not np.isfinite(values).all():
+                    raise InputError(_not_finite(deck, points, name, rows))
                 np.add.at(total, dof, factor * values)
     if field.any():
         if mass_gg is None:
             raise ValueError("GRAV, ACCEL1 and RFORCE need the mass matrix")
         total += sp.csr_matrix(mass_gg) @ field
+    bad = np.flatnonzero(~np.isfinite(total))
+    if len(bad):
+        raise InputError(
+            f"{deck.path}: load set {sid}: the load at {points.label(int(bad[0]))} is "
+            f"{total[bad[0]]:g}, expected factors and loads whose sum is a number"
+        )
     return total
+
+
+def _not_finite(
+    deck: "Deck", points: Points, name: str, rows: pd.DataFrame
+) -> list[str]:
+    """The cards whose loads are no numbers."""
+    found = []
+    for i in range(len(rows)):
+        row = rows.iloc[[i]].reset_index(drop=True)
+        if not np.isfinite(_terms(deck, points, name, row)[1]).all():
+            found.append(
+                f"{where(name, row.iloc[0])}: its load is beyond the range of double "
+                "precision (1e308)"
+            )
+    return found[:20]
 
 
 def static_element_loads(deck: "Deck", points: Points, sid: int) -> ElementLoads | None:

@@ -46,6 +46,25 @@ class Table:
         mean = 0.5 * (y[np.minimum(first, last)] + y[np.clip(after - 1, 0, last)])
         return np.where(on_point, mean, self._between(t, first))
 
+    def continued(self, first: float, last: float) -> list[tuple[float, float]]:
+        """Where a run from first to last (s) leaves the table and its values change.
+
+        Returns:
+            Time (s) and value at each end of the run that is beyond the table.
+        """
+        if self.flat:
+            return []
+        slack = 1e-9 * (last - first)
+        ends = []
+        for time, edge, beyond in (
+            (first, self.x[0], first < self.x[0] - slack),
+            (last, self.x[-1], last > self.x[-1] + slack),
+        ):
+            value = float(self(np.array([time]))[0])
+            if beyond and value != float(self(np.array([edge]))[0]):
+                ends.append((time, value))
+        return ends
+
     def _between(self, t: Float64, upper: npt.NDArray[np.intp]) -> Float64:
         """Interpolation or extrapolation by the segment that ends at `upper`."""
         upper = np.clip(upper, 1, len(self.x) - 1)

@@ -13,6 +13,7 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
 from fem.elements.block import ElementBlock
+from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.model.direct_input import NONE, DirectMatrices
 
@@ -61,7 +62,7 @@ def assemble(
     stiffness, structural = _Sum(points.size), _Sum(points.size)
     mass, damping = _Sum(points.size), _Sum(points.size)
     for block in blocks:
-        k = block.stiffness()
+        k = _finite(block, block.stiffness(), "stiffness")
         if k is not None:
             stiffness.add(_triplets(points, block, k))
             ge = block.structural_damping()
@@ -69,10 +70,10 @@ def assemble(
                 k4 = ge if ge.ndim == 3 else k * ge[:, None, None]
                 structural.add(_triplets(points, block, k4))
         del k
-        m = block.mass(coupled=coupled)
+        m = _finite(block, block.mass(coupled=coupled), "mass")
         if m is not None:
             mass.add(_triplets(points, block, m * wtmass if wtmass != 1.0 else m))
-        b = block.damping()
+        b = _finite(block, block.damping(), "damping")
         if b is not None:
             damping.add(_triplets(points, block, b))
     k1, m1, b1 = factors
@@ -82,6 +83,23 @@ def assemble(
         damping=_with(damping.symmetric(), b1, direct.damping),
         structural_damping=structural.symmetric(),
     )
+
+
+def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 | None:
+    """The matrices of a block (e, n, n) as they are.
+
+    Raises:
+        InputError: elements whose matrix is not finite.
+    """
+    if matrix is not None and not np.isfinite(matrix).all():
+        bad = block.id[~np.isfinite(matrix).all(axis=(1, 2))]
+        more = f", ... ({len(bad)} in all)" if len(bad) > 5 else ""
+        raise InputError(
+            f"{block.card} {', '.join(map(str, bad[:5]))}{more}: the {what} is beyond "
+            "the range of double precision (1e308); look at its property, material and "
+            "size"
+        )
+    return matrix
 
 
 def to_displacement(points: Points, dof: Int64, matrix: Float64) -> Float64:

@@ -7,6 +7,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.deck.references import table, where
+from fem.deck.values import Malformed, real
 from fem.errors import InputError, nearest
 from fem.geometry.points import Points
 
@@ -42,13 +43,32 @@ def read_direct(
         if not name:
             return None
         scale = deck.number(factor)
-        return sp.csr_matrix(scale * dmig(deck, points, name))
+        terms = (f * dmig(deck, points, term) for f, term in combination(name))
+        return sp.csr_matrix(scale * sum(terms))
 
     return DirectMatrices(
         stiffness=chosen(k2gg, "CK2"),
         mass=chosen(m2gg, "CM2"),
         damping=chosen(b2gg, "CB2"),
     )
+
+
+def combination(text: str) -> list[tuple[float, str]]:
+    """Factors and names of a sum of matrices: "KA, 0.5*KB" as case control writes it.
+
+    Raises:
+        InputError: a term that is no name and no factor times a name.
+    """
+    terms = []
+    for term in text.replace("(", "").replace(")", "").split(","):
+        factor, star, name = (part.strip() for part in term.rpartition("*"))
+        try:
+            terms.append((real(factor) if star else 1.0, name))
+        except Malformed:
+            raise InputError(
+                f"'{term.strip()}' in {text}: expected NAME or FACTOR*NAME"
+            ) from None
+    return terms
 
 
 def dmig(deck: "Deck", points: Points, name: str) -> sp.csr_matrix:

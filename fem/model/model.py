@@ -145,7 +145,14 @@ class Model:
         return freedoms_of(self.deck, self.points, "QSET")
 
     @cached_property
-    def analysis_dof(self) -> Int64:
+    def omitted_dof(self) -> Int64:
+        """(o,) rows of the g-set that OMIT takes out of a reduction; none with ASET."""
+        if not self.deck.cards["ASET"].empty:
+            return np.zeros(0, np.int64)
+        return freedoms_of(self.deck, self.points, "OMIT")
+
+    @cached_property
+    def kept_dof(self) -> Int64:
         """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
         rows = freedoms_of(self.deck, self.points, "ASET")
         return np.setdiff1d(rows, self.generalised_dof)

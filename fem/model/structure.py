@@ -115,8 +115,16 @@ class Structure:
 
     @property
     def analysis_dof(self) -> Int64:
-        """(a,) rows of the g-set that ASET keeps in a reduction, without the q-set."""
-        return self.model.analysis_dof
+        """(a,) rows of the g-set that a reduction keeps, without the q-set.
+
+        Those of ASET; with OMIT alone, all free ones that it does not name.
+        """
+        omitted = self.model.omitted_dof
+        if not len(omitted):
+            return self.model.kept_dof
+        self.free_rows(omitted, "OMIT")
+        rest = np.setdiff1d(self.elimination.f, omitted)
+        return np.setdiff1d(rest, self.generalised_dof)
 
     @property
     def generalised_dof(self) -> Int64:

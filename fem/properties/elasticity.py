@@ -18,7 +18,7 @@ from fem.arrays import Float64
 from fem.deck.references import column, table, where
 from fem.errors import InputError, nearest
 from fem.properties.failure import Strength
-from fem.properties.materials import complete
+from fem.properties.materials import check_moduli, complete
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -142,6 +142,7 @@ def _value(row: pd.Series, name: str) -> float:
 def _mat1(row: pd.Series) -> Elasticity:
     given = [np.array([float(row[k])]) for k in ("e", "g", "nu")]
     e, g, nu = (float(v[0]) for v in complete(*given))
+    check_moduli(pd.DataFrame([row]))
     if not (-1.0 < nu < 0.5):
         raise InputError(
             f"{where('MAT1', row)}: Poisson's ratio {nu:g} (from E {e:g} and G {g:g} "

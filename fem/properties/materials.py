@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
-from fem.deck.references import column, refer, table
+from fem.deck.references import column, refer, table, where
+from fem.errors import InputError
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -45,6 +46,31 @@ def complete(e: Float64, g: Float64, nu: Float64) -> tuple[Float64, Float64, Flo
     return np.nan_to_num(e_full), np.nan_to_num(g_full), np.nan_to_num(nu_full)
 
 
+def check_moduli(mat: pd.DataFrame) -> None:
+    """Refuse MAT1 cards (n rows) that are no elastic material.
+
+    Raises:
+        InputError: E or G below zero; a given ν that is not between -1 and 0.5, or not
+            a number; all of them. (A ν that follows from E and G belongs to bars,
+            whose bending and torsion need not fit together.)
+    """
+    given = mat["nu"].to_numpy(float)
+    wrong_nu = ~np.isnan(given) & ~((given > -1.0) & (given < 0.5))
+    problems = [
+        f"{where('MAT1', mat.iloc[i])}: NU {given[i]:g}, expected between -1 and 0.5"
+        for i in np.flatnonzero(wrong_nu)
+    ]
+    for name in ("e", "g"):
+        values = mat[name].to_numpy(float)
+        problems += [
+            f"{where('MAT1', mat.iloc[i])}: {name.upper()} {values[i]:g}, expected "
+            "0 or more"
+            for i in np.flatnonzero(values < 0.0)
+        ]
+    if problems:
+        raise InputError(dict.fromkeys(problems))
+
+
 def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:
     """MAT1 of each row's `mid`.
 
@@ -53,6 +79,7 @@ def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:
     """
     mat = refer(rows, card, "mid", table(deck, "MAT1"), "MAT1")
     e, g, nu = complete(*(mat[c].to_numpy(float) for c in ("e", "g", "nu")))
+    check_moduli(mat)
     return Isotropic(
         e=e,
         g=g,

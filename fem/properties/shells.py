@@ -71,6 +71,24 @@ class ShellProperty:
     ply_id: Int64 | None = None
     failure: Failure | None = None
 
+    @property
+    def isotropic(self) -> bool:
+        """Whether the section is the same in all directions of its plane."""
+        parts = (self.membrane, self.coupling, self.bending)
+        size = max(np.abs(part).max() for part in parts)
+        flat = np.diff(np.diag(self.shear_flexibility))[0] == 0.0
+        return bool(
+            self.laminate is None
+            and flat
+            and self.shear_flexibility[0, 1] == 0.0
+            and all(
+                np.abs(part[:2, 2]).max() <= 1e-12 * size
+                and abs(part[0, 0] - part[1, 1]) <= 1e-12 * size
+                and abs(part[0, 0] - part[0, 1] - 2.0 * part[2, 2]) <= 1e-12 * size
+                for part in parts
+            )
+        )
+
 
 def read_shell_properties(
     deck: "Deck", pids: Iterable[int]

@@ -45,7 +45,12 @@ def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
         InputError: the deck asks for what is not there or cannot be solved; the
             message names cards, grids or subcases.
     """
-    options = options or Options()
+    # What overflows is found where it is used, and named.
+    with np.errstate(over="ignore", invalid="ignore"):
+        return _run(deck, path, options or Options())
+
+
+def _run(deck: Deck, path: Path, options: Options) -> Path:
     start = perf_counter()
     work = _by_solution(deck)
     _refuse_what_is_not_carried_out(deck, work)

@@ -23,7 +23,12 @@ from fem.files.force_histories import (
     constraint_force_history,
 )
 from fem.files.hdf5 import PointLayout, ResultFile
-from fem.loads import dynamic_excitation, initial_conditions, time_steps
+from fem.loads import (
+    dynamic_excitation,
+    initial_conditions,
+    table_notices,
+    time_steps,
+)
 from fem.loads.element_loads import ElementLoads, side_by_side
 from fem.model.structure import Structure, system_of
 from fem.recovery.elements import (
@@ -96,7 +101,7 @@ def _direct(
     model: Structure, cases: list[Subcase], results: ResultFile, options: Options
 ) -> None:
     check_free(model, 109)
-    steps = time_steps(model.deck, model.subcase)
+    steps = _steps(model, cases, options)
     inputs = _inputs(model, cases)
     load_g = inputs.load
 
@@ -131,7 +136,7 @@ def _direct(
 def _modal(
     model: Structure, cases: list[Subcase], results: ResultFile, options: Options
 ) -> None:
-    steps = time_steps(model.deck, model.subcase)
+    steps = _steps(model, cases, options)
     reduced, found = modes_of(model, options)
     modes = retained_modes(model.deck, found)
     if modes.count < found.count:
@@ -161,6 +166,18 @@ def _modal(
         progress=options.console.progress("modal transient"),
     )
     _finish(cases, time, observers, results)
+
+
+def _steps(
+    model: Structure, cases: list[Subcase], options: Options
+) -> list[tuple[int, float, int]]:
+    """Time steps; where tables of loads end before them is said."""
+    steps = time_steps(model.deck, model.subcase)
+    end = sum(count * step for count, step, _ in steps)
+    notices = (table_notices(model.deck, case, end) for case in cases)
+    for notice in dict.fromkeys(text for texts in notices for text in texts):
+        options.console.say(f"notice: {notice}")
+    return steps
 
 
 @dataclass(frozen=True, kw_only=True)

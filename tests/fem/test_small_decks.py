@@ -109,3 +109,178 @@ def test_a_load_that_falls_to_zero_bends_as_beam_theory_has_it(solve):
     )
     file = solve(101, "SPC = 5\nLOAD = 9", bulk)
     assert file["static/1/displacement"][1, 1] == pytest.approx(2.51666667e-4, rel=1e-6)
+
+
+def test_guyan_reduction_by_omit(solve):
+    """Two equal springs k in series, the mass between them omitted: 209.88 Hz."""
+    bulk = (
+        "GRID,11\nGRID,12,,1.\nGRID,13,,2.\nCROD,1,7,11,12\nCROD,2,7,12,13\n"
+        "PROD,7,3,2.\nMAT1,3,1.0+7,,.3\nCONM2,21,12,,3.\nCONM2,22,13,,5.\n"
+        "SPC1,5,123456,11\nSPC1,5,23456,12,13\nEIGRL,4,,,1\n"
+    )
+    case = "SPC = 5\nMETHOD = 4"
+    # Static shape (1/2, 1): k/2 over 5 + 3/4.
+    expected = np.sqrt(1e7 / (5.0 + 0.25 * 3.0)) / (2 * np.pi)
+    for card in ("OMIT1,1,12", "OMIT,12,1", "ASET,13,1", "CSET1,1,13"):
+        file = solve(103, case, f"{bulk}{card}\n")
+        assert file["modes/frequency_hz"][:] == pytest.approx([expected]), card
+
+
+def test_scalar_points_that_their_use_defines(solve):
+    """A chain of three masses: 2 sqrt(k/m) sin((2 n - 1) pi / 14) / 2 pi."""
+    bulk = "EIGRL,4,,,3\n" + "".join(
+        f"CELAS4,{k},800.,{k - 1},{k}\nCMASS4,{10 + k},2.,{k}\n" for k in (1, 2, 3)
+    )
+    file = solve(103, "METHOD = 4", bulk)
+    n = np.arange(1, 4)
+    expected = 2.0 * 20.0 * np.sin((2 * n - 1) * np.pi / 14.0) / (2 * np.pi)
+    assert file["modes/frequency_hz"][:] == pytest.approx(expected)
+    assert any("3 scalar points are defined by scalar elements" in t for t in file.said)
+
+
+@pytest.mark.parametrize(
+    "passenger",
+    [
+        "MAT4,3,204.,900.",
+        "MATT1,3,7\nTABLEM1,7",
+        "AEROS,,,1.,10.,10.\nCAERO1,1001,1\nAELIST,7,1001,THRU,1008\nTRIM,1,.3",
+        "PBEND,77,3,1.,1.,1.,1.",
+        "PBARL,78,999,,ROD\n,.1",  # no element has it, no material is looked for
+        "BCTABLE,1\nNOLIN1,1\nEPOINT,99\nPELAST,7\nPBUSHT,7",
+    ],
+)
+def test_cards_that_cannot_matter_are_named_and_passed_over(solve, passenger):
+    file = solve(101, "SPC = 5\nLOAD = 9", f"{ROD}{passenger}\n")
+    assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
+    named = passenger.split(",")[0]
+    said = [t for t in file.said if "cards without effect here" in t]
+    assert named == "PBARL" or f"{named} (1)" in said[0]
+
+
+@pytest.mark.parametrize("name", ["MPC", "SPC"])
+def test_selected_constraints_that_are_not_there_constrain_nothing(solve, name):
+    bulk = ROD.replace("SPC1,5,", "SPC1,6,") if name == "SPC" else ROD
+    case = "MPC = 77\nSPC = 5" if name == "MPC" else "SPC = 5"
+    bulk += "GRID,13,,,,,,123456\n"
+    if name == "SPC":
+        bulk = bulk.replace("GRID,11,,0.,0.,0.", "GRID,11,,,,,,123456")
+        bulk = bulk.replace("GRID,12,,4.,0.,0.", "GRID,12,,4.,,,,23456")
+    file = solve(101, f"{case}\nLOAD = 9", bulk)
+    assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
+    number = {"MPC": 77, "SPC": 5}[name]
+    assert any(f"{name} = {number} is selected and not in" in t for t in file.said)
+
+
+@pytest.mark.parametrize(
+    "spc",
+    [
+        "SPC1,5,123456,11\nSPC1,5,23456,12,THRU,99999999",
+        "SPC1,5,23456,10,THRU,14\nSPC,5,11,1",
+        "SPC1,5,23456,1,THRU,50,EXCEPT,20\nSPC1,5,1,1,THRU,11",
+        "SPC1,5,23456,2,THRU,40,BY,1\nSPC1,5,1,5,THRU,11,BY,3",
+    ],
+)
+def test_ranges_hold_the_points_that_exist(solve, spc):
+    rod = "".join(x for x in ROD.splitlines(True) if not x.startswith("SPC"))
+    file = solve(101, "SPC = 5\nLOAD = 9", f"{rod}{spc}\n")
+    assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
+
+
+def test_matrices_in_sums_with_factors(solve):
+    """K + 0.5 KADD + KADD: 500 / (1e3 + 1.5 * 2e3)."""
+    bulk = (
+        "GRID,1,,,,,,23456\nCELAS2,1,1000.,1,1\nFORCE,9,1,,500.,1.\n"
+        "DMIG,KADD,0,6,1,1\nDMIG,KADD,1,1,,1,1,2000.\n"
+    )
+    file = solve(101, "LOAD = 9\nK2GG = 0.5*KADD, KADD", bulk)
+    assert file["static/1/displacement"][0, 0] == pytest.approx(0.125)
+
+
+def test_free_fields_go_on_beyond_the_eighth(solve):
+    bulk = ROD.replace(
+        "SPC1,5,23456,12\n", "SPC1,5,23456,12,12,12,12,12,12,12,12,12,12,12\n"
+    )
+    file = solve(101, "SPC = 5\nLOAD = 9", bulk)
+    assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
+
+
+def test_isotropic_shell_with_a_system_normal_to_it(solve):
+    """Its material axes change nothing; a laminate's would."""
+    bulk = (
+        "EIGRL,1,,,8\nCORD2R,3,,0.,0.,0.,0.,0.,1.\n,0.,1.,0.\nMAT1,2,7.+10,,.3,2700.\n"
+        "GRID,1\nGRID,2,,1.\nGRID,3,,1.,0.,1.\nGRID,4,,0.,0.,1.\n"
+        "PSHELL,1,2,.01,2,,2\nCQUAD4,1,1,1,2,3,4"
+    )
+    plain = solve(103, "METHOD = 1", bulk)["modes/frequency_hz"][:]
+    normal = solve(103, "METHOD = 1", bulk + ",3")["modes/frequency_hz"][:]
+    np.testing.assert_allclose(normal[6:], plain[6:], rtol=1e-12)
+    laminate = bulk.replace("PSHELL,1,2,.01,2,,2", "PCOMP,1\n,2,.01,0.,YES")
+    with pytest.raises(fem.InputError, match="is normal to the element"):
+        solve(103, "METHOD = 1", laminate + ",3")
+
+
+@pytest.mark.parametrize(
+    ("bulk", "case", "words"),
+    [
+        (ROD.replace("9,12,,1000.,1.", "9,12,,1.+300,1.+300"), "", "FORCE 9: its load"),
+        (ROD + "LOAD,8,1.+300,1.+300,9\n", "LOAD = 8", "the load at grid 12 T1 is inf"),
+        (
+            ROD.replace("PROD,7,3,2.", "PROD,7,3,1.+302"),
+            "",
+            "CROD 1: the stiffness is beyond",
+        ),
+        (
+            ROD.replace("1000.,1.", "1.+300,1.").replace("3,2.", "3,1.-20"),
+            "",
+            "displacement is inf at grid 12 T1",
+        ),
+        (ROD.replace(",.3\n", ",.5\n"), "", "MAT1 3: NU 0.5, expected between -1"),
+        (ROD.replace(",.3\n", ",-1.\n"), "", "MAT1 3: NU -1, expected between -1"),
+        (ROD.replace("1.0+7", "-1.0+7"), "", "MAT1 3: E -1e\\+07, expected 0 or more$"),
+        (
+            ROD + "RBE3,10,,12,,1.,123,11\n",
+            "",
+            "RBE3 field REFC is blank",
+        ),
+        (ROD + "EIGRL,1,,,-3\n", "", "ND -3, expected"),
+        (ROD + "EIGRL,1,,1.+300\n", "", "V2 1e\\+300 Hz, expected at most"),
+        (ROD + "TSTEP,1,1000000000,.1\n", "", "at most 50000000 steps"),
+        (ROD + "TSTEP,1,10,1.-300\n", "", "steps of 1e-15 to"),
+        (ROD, "K2GG = 0.5KADD", "DMIG 0.5KADD is not in the deck"),
+        (ROD, "K2GG = X*KADD", "expected NAME or FACTOR\\*NAME"),
+        (ROD + "CBUSH2D,1\n", "", "not supported"),
+    ],
+)
+@pytest.mark.filterwarnings("ignore:overflow")
+def test_what_is_no_number_is_named_and_not_written(solve, bulk, case, words, tmp_path):
+    with pytest.raises(fem.InputError, match=words):
+        solve(101, f"SPC = 5\nLOAD = 9\n{case}", bulk)
+    assert not list(tmp_path.glob("*.h5"))
+
+
+def test_hints_are_slips_only(solve):
+    for name, hint in (("CBRA", "CBAR"), ("GIRD", "GRID"), ("AECOMPX", "")):
+        with pytest.raises(fem.InputError) as caught:
+            solve(101, "SPC = 5\nLOAD = 9", f"{ROD}{name},1\n")
+        assert ("did you mean" in str(caught.value)) == bool(hint)
+        assert hint in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("table", "delay", "given"),
+    [
+        ("0.,0.,.15,1.5,.3,3.", "", "10 at 1 s"),
+        ("0.,0.,.5,5.,10.,5.", ".2", "-2 at 0 s"),
+        ("0.,1.,.3,1.", "", ""),  # continued, it stays as it is
+        ("0.,0.,2.,2.", "", ""),
+    ],
+)
+def test_tables_that_end_before_the_run(solve, table, delay, given):
+    bulk = (
+        "GRID,1,,,,,,23456\nCELAS2,1,800.,1,1\nCONM2,2,1,,2.\nTSTEP,6,100,.01\n"
+        f"TLOAD1,50,60,{delay},,80\nDAREA,60,1,1,4.\nTABLED1,80\n,{table},ENDT\n"
+    )
+    file = solve(109, "DLOAD = 50\nTSTEP = 6", bulk)
+    said = [text for text in file.said if "TABLED1 80" in text]
+    assert len(said) == bool(given)
+    assert not given or f"it gives {given}" in said[0]

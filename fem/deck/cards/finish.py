@@ -127,6 +127,7 @@ def eigr(columns: Columns, problems: Problems) -> None:
     count = len(columns["sid"])
     columns.update(v1=columns.pop("f1"), v2=columns.pop("f2"))
     columns.update(msglvl=[0] * count, maxset=[0] * count, shfscl=[0.0] * count)
+    eigrl(columns, problems)
 
 
 def pbar(columns: Columns, problems: Problems) -> None:
@@ -146,3 +147,20 @@ def frame(kind: str, form: int, columns: Columns, problems: Problems) -> None:
         columns.setdefault(key, [0] * count)
     for key in (f"{p}{k}" for p in "abc" for k in "123"):
         columns.setdefault(key, [float("nan")] * count)
+
+
+_HIGHEST = 1e15  # Hz; its square still leaves room for stiffness
+
+
+def eigrl(columns: Columns, problems: Problems) -> None:
+    """Numbers of modes and limits that a solution can have."""
+    for row, nd in enumerate(columns["nd"]):
+        name = f"{_place(columns, row)}: EIGRL {columns['sid'][row]}"
+        if nd < 0:
+            problems.append(f"{name}: ND {nd}, expected a positive number or blank")
+        for limit in ("v1", "v2"):
+            if abs(columns[limit][row]) > _HIGHEST:
+                problems.append(
+                    f"{name}: {limit.upper()} {columns[limit][row]:g} Hz, expected at "
+                    f"most {_HIGHEST:g} Hz, or blank for no limit"
+                )

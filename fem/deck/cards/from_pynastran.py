@@ -84,6 +84,8 @@ def rbe3(card: Any) -> Rows:
     ]
     if not terms:
         raise Malformed("no weights and grids")
+    if not card.refc:
+        raise Malformed("field REFC is blank, expected component digits")
     weights, comps, grids = zip(*terms)
     return [
         {

@@ -14,6 +14,10 @@ Row = dict[str, Any]
 Rows = list[Row]
 
 
+_MOST_STEPS = 50_000_000  # their times alone fill 0.4 GB
+_STEPS = (1e-15, 1e15)  # s; beyond, powers of them leave no digits of stiffness or mass
+
+
 def spoint(f: Fields) -> Rows:
     written, between = f.ids(1, "ID")
     return [{"id": i} for i in (*written, *between)]
@@ -21,19 +25,19 @@ def spoint(f: Fields) -> Rows:
 
 def spc1(f: Fields) -> Rows:
     sid, c = f.integer(1, "SID"), f.components(2, "C", "0")
-    written, between = f.ids(3, "G")
-    rows = [{"sid": sid, "g": g, "c": c, "d": 0.0, "thru": False} for g in written]
-    # Points that a range merely skips over need not exist.
-    rows += [{"sid": sid, "g": g, "c": c, "d": 0.0, "thru": True} for g in between]
-    return rows
+    written, ranges = f.ranges(3, "G")
+    row: Row = {"sid": sid, "c": c, "d": 0.0}
+    rows = [{**row, "g": g, "thru": None} for g in written]
+    # Points that a range skips over need not exist: it is unrolled when they are known.
+    return rows + [{**row, "g": part.first, "thru": part} for part in ranges]
 
 
 def freedoms(f: Fields) -> Rows:
-    """ASET1, BSET1 and QSET1."""
+    """ASET1, BSET1, CSET1, OMIT1 and QSET1."""
     c = f.components(1, "C", "0")
-    written, between = f.ids(2, "ID")
-    rows = [{"id": i, "c": c, "thru": False} for i in written]
-    return rows + [{"id": i, "c": c, "thru": True} for i in between]
+    written, ranges = f.ranges(2, "ID")
+    rows = [{"id": i, "c": c, "thru": None} for i in written]
+    return rows + [{"id": part.first, "c": c, "thru": part} for part in ranges]
 
 
 def add(f: Fields) -> Rows:
@@ -162,6 +166,11 @@ def tstep(f: Fields) -> Rows:
         if count < 1 or not step > 0.0 or output < 1:
             raise Malformed(
                 f"found N {count}, DT {step}, NO {output}, expected positive numbers"
+            )
+        if count > _MOST_STEPS or not _STEPS[0] <= step <= _STEPS[1]:
+            raise Malformed(
+                f"found N {count}, DT {step:g}, expected at most {_MOST_STEPS} steps "
+                f"of {_STEPS[0]:g} to {_STEPS[1]:g} s"
             )
         steps.append((count, step, output))
     if not steps:

@@ -11,7 +11,7 @@ RECORDS = (
         name="MAT1",
         group=_GROUP,
         fields="mid:i e:f=nan[M/L] g:f=nan[M/L] nu:f=nan rho:f=0.[M/L3] a:f=0. "
-        "tref:f=0. ge:f=0. st:f=nan[M/L] sc:f=nan[M/L] ss:f=nan[M/L] mcsid:i=0>CORD",
+        "tref:f=0. ge:f=0. st:f=nan[M/L] sc:f=nan[M/L] ss:f=nan[M/L] mcsid:i=0",
         ids="material",
     ),
     Card(

@@ -11,6 +11,7 @@ RECORDS = (
         group=_MODES,
         fields="sid:i v1:f=nan[1] v2:f=nan[1] nd:i=0 msglvl:i=0 maxset:i=0 shfscl:f=0. "
         "norm:s=MASS",
+        finish=finish.eigrl,
     ),
     Card(
         name="EIGR",

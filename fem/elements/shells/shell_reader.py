@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from fem.arrays import Float64, Int64
+from fem.arrays import Bool, Float64, Int64
 from fem.deck.references import column, table, where
 from fem.elements.shells.convex import bad_facets
 from fem.elements.shells.shell import Shell
@@ -88,7 +88,8 @@ def _block(
         raise InputError(
             f"{where(card, rows.iloc[i])}: {text}" for i, text in zip(bad, texts)
         )
-    angle = _material_angle(points, rows, card, xyz)
+    free = np.array([p.isotropic for p in used])[which]
+    angle = _material_angle(points, rows, card, xyz, free)
     thickness = corner_thickness(rows, card, used, which, corners)
     return Shell(
         card=card,
@@ -108,9 +109,13 @@ def _block(
 
 
 def _material_angle(
-    points: Points, rows: pd.DataFrame, card: str, xyz: Float64
+    points: Points, rows: pd.DataFrame, card: str, xyz: Float64, isotropic: Bool
 ) -> Float64:
-    """(e,) rad from the element x axis: THETA from side 1-2, or the x axis of MCID."""
+    """(e,) rad from the element x axis: THETA from side 1-2, or the x axis of MCID.
+
+    Isotropic elements may have a system whose x axis is normal to them: they take side
+    1-2, which changes nothing.
+    """
     axes = facet(xyz).axes
     mcid = rows["mcid"].to_numpy(np.int64)
     direction = xyz[:, 1] - xyz[:, 0]
@@ -120,6 +125,9 @@ def _material_angle(
         direction[given] = points.frames.triads(mcid[given], centre)[:, :, 0]
     x, y, z = np.einsum("eij,ej->ie", axes, direction)
     normal = given & (np.hypot(x, y) <= 1e-6 * np.abs(z))
+    side = xyz[normal, 1] - xyz[normal, 0]
+    x[normal], y[normal], _ = np.einsum("eij,ej->ie", axes[normal], side)
+    normal &= ~isotropic
     if normal.any():
         raise InputError(
             f"{where(card, rows.iloc[i])}: the x axis of its material system MCID "

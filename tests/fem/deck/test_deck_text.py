@@ -107,9 +107,9 @@ def test_replication_of_what_is_no_number_is_named(read):
         read("PARAM,X,Y\n=,*1\n")
 
 
-def test_too_many_free_fields_are_an_error_not_a_loss(read):
-    with pytest.raises(InputError, match=r"a.bdf:10: 10 data fields"):
-        read("SPC1,9,123,1,2,3,1,2,3,1,2\n")
+def test_many_free_fields_go_on_as_continuations(read):
+    spc = read("SPC1,9,123,1,1,1,1,1,1,1,1,2\n,3\n").cards["SPC"].query("sid == 9")
+    assert set(spc["g"]) == {1, 2, 3}
 
 
 def test_include_split_relative_quoted_and_by_name(tmp_path, read):
