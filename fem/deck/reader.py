@@ -24,6 +24,7 @@ from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import check, check_selected
 from fem.deck.cleanup import clean
 from fem.deck.deck import Deck
+from fem.deck.design import set_initial_values
 from fem.deck.executive import read_executive
 from fem.deck.fields import Fields
 from fem.deck.lexer import Bulk, RawCard, read_cards
@@ -94,6 +95,8 @@ def read_deck(
     )
     notices = [*source.notices, *executive.notices, *case.notices]
     problems = [*sections.problems, *executive.problems, *case.problems]
+    if executive.sol == 200:
+        set_initial_values(bulk.cards, ignore, problems, notices)
     deck = _deck(path, bulk, case, ignore, problems, notices)
     if sections.superelements and not superelements:
         numbers = ", ".join(map(str, sections.superelements))

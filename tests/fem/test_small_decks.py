@@ -284,3 +284,58 @@ def test_tables_that_end_before_the_run(solve, table, delay, given):
     said = [text for text in file.said if "TABLED1 80" in text]
     assert len(said) == bool(given)
     assert not given or f"it gives {given}" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("relations", "moved"),
+    [
+        # The area is 8, not 2.
+        ("DVPREL1,40,PROD,7,A\n,30,1.", 5e-5),
+        ("DVPREL1,40,PROD,7,4\n,30,1.", 5e-5),
+        ("DVPREL1,40,PROD,7,A,,,2.\n,30,.25", 1e-4),
+        ("DLINK,1,31,1.,2.,30,.5\nDVPREL1,40,PROD,7,A\n,31,1.", 4e-4 / 9.0),
+        ("DVMREL1,40,MAT1,3,E\n,30,1.+7", 2e-4 / 8.0),
+        ("DVGRID,30,12,,1.,1.", 2e-4),
+    ],
+)
+def test_design_variables_begin_with_their_values(solve, relations, moved):
+    design = f"DESVAR,30,AREA,8.,.1,100.\nDRESP1,50,W,WEIGHT\n{relations}\n"
+    case = "ANALYSIS = STATICS\nSPC = 5\nSUBCASE 1\nLOAD = 9\nDESOBJ(MIN) = 50"
+    file = solve(200, case, ROD + design)
+    assert file["static/1/displacement"][1, 0] == pytest.approx(moved)
+    assert any("nothing is optimised" in t for t in file.said) == ("DVG" not in design)
+
+
+def test_design_values_reach_sections_plies_and_shells(solve):
+    """Shapes, plies and thickness by the names of Nastran's guide."""
+    bulk = (
+        "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\nGRID,4,,,1.\nMAT1,3,7.+10,,.3,1000.\n"
+        "SPC1,5,123456,1\nFORCE,9,3,,1.,1.\nCQUAD4,1,1,1,2,3,4\nPSHELL,1,3,9.,3\n"
+        "CQUAD4,2,2,1,2,3,4\nPCOMP,2\n,3,9.,0.,,3,9.\nCBAR,3,3,1,2,0.,1.,0.\n"
+        "PBARL,3,3,,BAR\n,9.,9.\n"
+        "DESVAR,30,X,.1\nDVPREL1,1,PSHELL,1,T\n,30,1.\nDVPREL1,2,PCOMP,2,T2\n,30,2.\n"
+        "DVPREL1,3,PCOMP,2,T1\n,30,3.\nDVPREL1,4,PBARL,3,DIM1\n,30,4.\n"
+        "DVPREL1,5,PBARL,3,DIM2\n,30,5.\n"
+    )
+    case = "ANALYSIS = STATICS\nSPC = 5\nLOAD = 9"
+    file = solve(200, case, bulk)
+    assert file["mass/total"][()] == pytest.approx(1000.0 * (0.1 + 0.5 + 0.2))
+
+
+@pytest.mark.parametrize(
+    ("relation", "words"),
+    [
+        ("DVPREL1,40,PROD,7,Q\n,30,1.", "field Q of PROD is not known"),
+        ("DVPREL1,40,PROD,8,A\n,30,1.", "PROD 8 is not in the deck"),
+        ("DVPREL1,40,PROD,7,A\n,31,1.", "DESVAR 31 is not defined"),
+        ("DVPREL2,40,PROD,7,A,,,60", "by an equation, which is not followed"),
+    ],
+)
+def test_design_relations_that_cannot_be_followed_are_refused(solve, relation, words):
+    bulk = f"{ROD}DESVAR,30,AREA,8.\n{relation}\n"
+    case = "ANALYSIS = STATICS\nSPC = 5\nLOAD = 9"
+    with pytest.raises(fem.InputError, match=words):
+        solve(200, case, bulk)
+    card = relation.split(",")[0]
+    file = solve(200, case, bulk, ignore=[card])
+    assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
