@@ -19,7 +19,7 @@ class Subcase:
 
     Attributes:
         temperature: set of temperatures that load (TEMPERATURE(LOAD)).
-        initial_temperature: set of TEMPERATURE(INITIAL).
+        initial_temperature: set of TEMPERATURE(INITIAL) or (MATERIAL).
         combination: subcases and factors that SUBCOM or SYMCOM adds up.
         not_carried_out: commands that would change what a solution of the deck's own
             finds and that nothing here carries out, each with its place.
@@ -314,13 +314,11 @@ class _Reader:
         """TEMPERATURE(INITIAL, MATERIAL, LOAD or BOTH) = n; alone it is BOTH."""
         kind = command.options[0] if command.options else "BOTH"
         n = number(command.value)
-        if kind.startswith("INIT"):
+        if kind.startswith(("INIT", "MATE")):
             self.change(initial_temperature=n)
-        elif kind.startswith(("LOAD", "BOTH")):
+        else:
             self.not_carried_out(command)
             self.change(temperature=n)
-        else:
-            self.passed_over[f"TEMPERATURE({kind})"] = None
 
     def do_super(self, command: _Command) -> None:
         """SUPER = ALL and SUPER = 0 mean all there is."""

@@ -102,6 +102,13 @@ def read_deck(
         numbers = ", ".join(map(str, sections.superelements))
         problems.append(f"{path}: superelements (BEGIN SUPER = {numbers})")
         problems[-1] += " are not supported here; expected one bulk data section"
+    if any(c.initial_temperature or c.temperature for c in case.subcases):
+        problems += [
+            f"{card.place}: {card.name} with TEMPERATURE in the case control: materials "
+            "do not depend on temperature here; give the constants at that temperature"
+            for card in bulk.cards
+            if card.name.startswith("MATT") and card.name not in ignore
+        ]
     parts = _superelements(path, sections, ignore, problems)
     if not problems:
         found = check_selected(deck, executive.sol, parts.values())
