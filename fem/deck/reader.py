@@ -104,8 +104,8 @@ def read_deck(
         problems[-1] += " are not supported here; expected one bulk data section"
     if any(c.initial_temperature or c.temperature for c in case.subcases):
         problems += [
-            f"{card.place}: {card.name} with TEMPERATURE in the case control: materials "
-            "do not depend on temperature here; give the constants at that temperature"
+            f"{card.place}: {card.name} with TEMPERATURE in the case control: "
+            "materials do not depend on temperature here; give the constants that hold"
             for card in bulk.cards
             if card.name.startswith("MATT") and card.name not in ignore
         ]
