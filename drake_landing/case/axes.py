@@ -10,7 +10,9 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.case.schema import Axes
+from drake_landing.gears import leg_matrix
 from drake_landing.gears.data import LandingGear, RigidPart
+from drake_landing.gears.legs import Leg
 
 Float64 = npt.NDArray[np.float64]
 
@@ -30,10 +32,20 @@ def gear_in_A(gear: LandingGear, R_AB: Float64) -> LandingGear:
         hold.model_copy(update={"directions": _turned(R_AB, hold.directions)})
         for hold in gear.further_attachments
     )
-    if gear.leg is not None and gear.leg.root is not None:
-        root = _turned(R_AB, gear.leg.root)
-        turned["leg"] = gear.leg.model_copy(update={"root": root})
+    if gear.leg is not None:
+        turned["leg"] = _leg_in_A(gear.leg, R_AB)
     return gear.model_copy(update={**places, **turned, "further_attachments": further})
+
+
+def _leg_in_A(leg: Leg, R_AB: Float64) -> Leg:
+    changes: dict[str, Any] = {}
+    if leg.root is not None:
+        changes["root"] = _turned(R_AB, leg.root)
+    if leg.matrix is not None:
+        K = leg_matrix.turned(np.array(leg.matrix.stiffness), R_AB)
+        rows = tuple(map(tuple, K.tolist()))
+        changes["matrix"] = leg.matrix.model_copy(update={"stiffness": rows})
+    return leg.model_copy(update=changes)
 
 
 def _unit(axis: str) -> Float64:

@@ -24,6 +24,7 @@ from pydrake.multibody.tree import (
     SpatialInertia,
 )
 
+from drake_landing.gears import leg_matrix
 from drake_landing.gears.data import LandingGear, RigidPart
 from drake_landing.gears.leg_beam import root_distance
 from drake_landing.gears.legs import Leg
@@ -116,6 +117,8 @@ def elastic_kinds(leg: Leg | None) -> tuple[str, ...]:
     """Those of `KINDS` that a leg has."""
     if leg is None:
         return ()
+    if leg.matrix is not None:
+        return KINDS
     beam = KINDS[:2] if leg.beam is not None else ()
     return tuple(k for k in KINDS if k in beam or getattr(leg, k) is not None)
 
@@ -132,4 +135,7 @@ def _root(
         stroke = _REFERENCE_STROKE * gear.shock_absorber.stroke
         above = stroke + root_distance(leg.beam, stroke, kind == "lateral")
         return centre + above * axis
+    if leg.matrix is not None:
+        K, about = np.array(leg.matrix.stiffness), hinge_axis(kind, axis)
+        return centre + leg_matrix.root_distance(K, about, axis) * axis
     return p_BA if leg.root is None else np.array(leg.root)

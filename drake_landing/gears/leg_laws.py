@@ -8,6 +8,7 @@ bogie beam free to turn, the other hinges locked):
     stiffness k at the axle        k h²
     frequency f                    (2π f)² I, of f extended at every stroke
     beam, f deflection per force   h²/f
+    matrix at the axle             see `leg_matrix`, the same at every stroke
     torsion                        as given, or (2π f)² I
 
 Damping is 2 ζ √(K I). h and I are taken from the finished plant, so that there is one
@@ -27,12 +28,14 @@ from drake_landing.gears.bodies import GearBodies, leg_axis
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.leg_beam import deflection_per_force
 from drake_landing.gears.leg_hinges import KINDS, hinge_axis
-from drake_landing.gears.legs import Elastic, LegBeam
+from drake_landing.gears.leg_matrix import hinge_stiffness
+from drake_landing.gears.legs import Elastic, LegBeam, LegMatrix
 from systems.gear.elastic_legs import ElasticLeg
 from systems.gear.lever_strut import LeverStrut
 from systems.tools.table import Table
 
 Float64 = npt.NDArray[np.float64]
+Law = Elastic | LegBeam | LegMatrix
 
 # Positions of the strut at which K and C are tabled: linear between them.
 _POSITIONS = 33
@@ -57,14 +60,18 @@ def elastic_leg(
     stiffness = np.zeros((_POSITIONS, len(kinds), len(kinds)))
     damping = np.zeros_like(stiffness)
     extended: dict[str, float] = {}
+    if leg.matrix is not None:
+        whole = _matrix_stiffness(plant, gear, bodies, context)
     for i, position in enumerate(np.linspace(0.0, end, _POSITIONS).tolist()):
         stroke = _set_position(bodies, context, position)
         for j, kind in enumerate(kinds):
             inertia = _swinging_inertia(plant, bodies, kind, context)
             extended.setdefault(kind, inertia)
             arm = 1.0 if kind == "torsion" else _arm(plant, gear, bodies, kind, context)
-            law = cast(Elastic | LegBeam, getattr(leg, kind) or leg.beam)
-            if isinstance(law, LegBeam):
+            law = cast(Law, getattr(leg, kind) or leg.beam or leg.matrix)
+            if isinstance(law, LegMatrix):
+                stiffness[i], k = whole, whole[j, j]
+            elif isinstance(law, LegBeam):
                 lateral = kind == "lateral"
                 k = arm * arm / deflection_per_force(law, stroke, lateral)
             else:
@@ -83,6 +90,22 @@ def elastic_leg(
         stiffness=stiffness,
         damping=damping,
         free_play=np.radians(play),
+    )
+
+
+def _matrix_stiffness(
+    plant: MultibodyPlant, gear: LandingGear, bodies: GearBodies, context: Context
+) -> Float64:
+    """(3, 3) K of the hinges from the stiffness at the axle of the extended leg."""
+    assert gear.leg is not None
+    assert gear.leg.matrix is not None
+    axis = leg_axis(gear)
+    arms = [_arm(plant, gear, bodies, kind, context) for kind in KINDS[:2]]
+    return hinge_stiffness(
+        np.array(gear.leg.matrix.stiffness),
+        np.array([hinge_axis(kind, axis) for kind in KINDS]),
+        axis,
+        np.array([*arms, 1.0]),
     )
 
 

@@ -8,6 +8,7 @@ off the ground, one motion at a time. SI units except angles in degrees.
 
 from typing import Annotated, Self
 
+import numpy as np
 from pydantic import AfterValidator, Field, model_validator
 
 from drake_landing.gears.parts import Data, Positive, Table, Vector3
@@ -130,6 +131,46 @@ class LegBeam(Data):
         return self
 
 
+Row6 = tuple[float, float, float, float, float, float]
+
+
+class LegMatrix(Data):
+    """Stiffness at the axle of a finite-element model of the leg, root clamped.
+
+    E.g. of `drake-landing reduce LEG.bdf` with the axle as interface. It holds at every
+    stroke against turning about the root that follows from it.
+    """
+
+    stiffness: tuple[Row6, Row6, Row6, Row6, Row6, Row6] = Field(
+        description="force and moment (N, N m) on the axle (of a bogie: on the pivot "
+        "of its beam) per translation and rotation (m, rad) in B, gear extended; "
+        "symmetric and positive definite"
+    )
+    damping_ratio: float = Field(
+        default=0.03, ge=0, lt=1, description="of critical, >= 0 and < 1"
+    )
+
+    @model_validator(mode="after")
+    def _stable(self) -> Self:
+        K = np.array(self.stiffness)
+        uneven = np.abs(K - K.T).max() / np.abs(K).max()
+        if uneven > 1e-6:
+            raise ValueError(
+                f"stiffness: found a matrix that is asymmetric by {uneven:.2g} of its "
+                "largest term, expected a symmetric one"
+            )
+        # Terms of N/m and N m/rad: scaled by the diagonal.
+        scale = np.sqrt(np.abs(np.diag(K)) + 1e-300)
+        least = np.linalg.eigvalsh(0.5 * (K + K.T) / np.outer(scale, scale))[0]
+        if not least > 1e-9:
+            raise ValueError(
+                f"stiffness: found a motion without stiffness (least eigenvalue "
+                f"{least:.2g} of the scaled matrix), expected a leg whose root is "
+                "clamped and whose shock absorber is locked"
+            )
+        return self
+
+
 class Leg(Data):
     """Flexibility of a leg between fitting and axle."""
 
@@ -147,6 +188,9 @@ class Leg(Data):
     beam: LegBeam | None = Field(
         default=None, description="both bendings from the beams of the leg"
     )
+    matrix: LegMatrix | None = Field(
+        default=None, description="bendings and torsion from a stiffness at the axle"
+    )
     torsion: Torsion | None = Field(
         default=None, description="about the strut axis; default rigid"
     )
@@ -154,19 +198,22 @@ class Leg(Data):
     @model_validator(mode="after")
     def _some_law(self) -> Self:
         own = [n for n in ("fore_aft", "lateral") if getattr(self, n) is not None]
-        if self.beam is not None and (own or self.root):
-            found = own[0] if own else "root"
-            raise ValueError(f"found beam and {found}, expected one of them")
-        if self.beam is None and not own and self.torsion is None:
+        own += ["root"] if self.root else []
+        for name, others in (("beam", own), ("matrix", [*own, "beam", "torsion"])):
+            clash = [n for n in others if getattr(self, n) is not None]
+            if getattr(self, name) is not None and clash:
+                raise ValueError(f"found {name} and {clash[0]}, expected one of them")
+        if not (self.bends or self.torsion):
             raise ValueError(
-                "found nothing that bends, expected fore_aft, lateral, torsion or beam"
+                "found nothing that bends, expected fore_aft, lateral, torsion, beam "
+                "or matrix"
             )
         return self
 
     @property
     def bends(self) -> bool:
         """Not only twists."""
-        return bool(self.beam or self.fore_aft or self.lateral)
+        return bool(self.beam or self.matrix or self.fore_aft or self.lateral)
 
 
 def require_over_stroke(leg: Leg, stroke: float, sliding: bool) -> None:

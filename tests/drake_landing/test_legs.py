@@ -215,6 +215,70 @@ def test_beam_leg_in_a_gear_has_its_stiffness_at_the_axle():
     assert_allclose(rig.law.stiffness[0], k * arm**2 * np.eye(2), rtol=1e-9)
 
 
+def _cantilever(length, bending, twisting=2e6, stretching=1e9):
+    """(6, 6) stiffness at the lower end of an upright cantilever, not round, in B.
+
+    Flexibility along -z: deflection L³/3EI, slope L²/2EI, under a moment L/EI.
+    """
+    C = np.zeros((6, 6))
+    for along, about, sign, EI in ((0, 4, -1, bending[0]), (1, 3, 1, bending[1])):
+        C[along, along] = length**3 / (3 * EI)
+        C[about, about] = length / EI
+        C[along, about] = C[about, along] = sign * length**2 / (2 * EI)
+    C[2, 2], C[5, 5] = length / stretching, length / twisting
+    return np.linalg.inv(C)
+
+
+def test_leg_from_a_matrix_deflects_and_slopes_as_its_cantilever():
+    length, bending = 2.4, (2e7, 3e7)
+    K = _cantilever(length, bending)
+    rig = Rig(aircraft_gears()[1], matrix={"stiffness": K.tolist()})
+    # The hinge of a cantilever lies two thirds of it above the end.
+    arm = 2 * length / 3
+    found = rig.law.stiffness
+    expected = [3 * EI / length**3 * arm**2 for EI in bending] + [2e6 / length]
+    for K_q in (found[0], found[-1]):
+        assert_allclose(K_q, np.diag(expected), rtol=1e-9, atol=1e-3)
+    root = rig.bodies.hinges["fore_aft"].frame_on_parent().GetFixedPoseInBodyFrame()
+    height = P_BA[2] + root.translation()[2] - rig.gear.axle[2]
+    assert_allclose(height, arm)
+    # Forces in any direction at the axle move it as the matrix says.
+    force = np.array([3e3, -2e3, 0.0])
+    moved = np.linalg.solve(K, np.r_[force, np.zeros(3)])
+    angles = np.linalg.solve(found[0], [force[0] * arm, force[1] * arm, 0.0])
+    assert_allclose(arm * angles[:2], moved[:2], rtol=1e-9)
+
+
+def test_matrix_of_a_leg_keeps_the_coupling_of_bending_and_torsion():
+    K = _cantilever(2.4, (2e7, 3e7))
+    # An axle ahead of the strut: moved 0.3 m forward, seen from there.
+    shift = np.eye(6)
+    shift[:3, 3:] = -np.array([[0, 0, 0], [0, 0, 0.3], [0, -0.3, 0]])
+    moved = np.linalg.inv(shift @ np.linalg.inv(K) @ shift.T)
+    rig = Rig(aircraft_gears()[1], matrix={"stiffness": moved.tolist()})
+    K_q = rig.law.stiffness[0]
+    assert abs(K_q[1, 2]) > 0.05 * np.sqrt(K_q[1, 1] * K_q[2, 2])
+    assert np.linalg.eigvalsh(K_q)[0] > 0.0
+    turn = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    back = gear_in_A(gear_in_A(rig.gear, turn), turn.T).leg.matrix.stiffness
+    assert_allclose(back, moved, rtol=1e-9, atol=1e-3)
+
+
+def test_matrices_that_no_clamped_leg_has_are_refused():
+    K = _cantilever(2.4, (2e7, 3e7))
+    uneven, loose = K.copy(), K.copy()
+    uneven[0, 4] *= 1.1
+    loose[2] = loose[:, 2] = 0.0
+    for bad, message in ((uneven, "asymmetric by"), (loose, "without stiffness")):
+        with pytest.raises(ValidationError, match=message):
+            Leg.model_validate({"matrix": {"stiffness": bad.tolist()}})
+    upside_down = K.copy()
+    upside_down[:3, 3:] *= -1
+    upside_down[3:, :3] *= -1
+    with pytest.raises(ValueError, match="turns against its deflection"):
+        Rig(aircraft_gears()[1], matrix={"stiffness": upside_down.tolist()})
+
+
 def pulse_response(rig, period, rise):
     """Root moment over drag at the axle: a quarter sine that ends at its peak."""
     hinge = rig.bodies.hinges["fore_aft"]
