@@ -138,13 +138,18 @@ def run(
 ) -> None:
     """Solve a Nastran deck's own case control and write DIR/<deck>.h5."""
     from fem.deck.reader import read_deck
+    from fem.errors import InputError
     from fem.files.export import export, wants_op2
-    from fem.solution import Options, run_deck
+    from fem.solution import Options, run_deck, solution_problems
 
     console = RichConsole()
     try:
         names = [name for name in ignore.replace(" ", "").split(",") if name]
-        model = read_deck(deck, ignore=names)
+        try:
+            model = read_deck(deck, ignore=names)
+        except InputError as error:
+            # What makes the rest moot comes first.
+            raise InputError([*solution_problems(deck), *error.problems]) from None
         folder = out if out is not None else Path("out", "fem", deck.stem)
         options = Options(
             threads=threads,

@@ -7,8 +7,11 @@ from time import perf_counter
 import numpy as np
 
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
+from fem.deck.case_control import Subcase, read_case_control
 from fem.deck.deck import Deck
+from fem.deck.executive import read_executive
+from fem.deck.sections import split_sections
+from fem.deck.source import read_source
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
@@ -71,6 +74,31 @@ def _run(deck: Deck, path: Path, options: Options) -> Path:
     return path
 
 
+def solution_problems(path: Path) -> list[str]:
+    """That no solution here is what a deck asks for, from its first sections alone.
+
+    For decks with other problems, which do not matter then. Empty: there is one, or
+    the deck cannot be read that far.
+    """
+    try:
+        sections = split_sections(read_source(path).lines, str(path))
+    except InputError:
+        return []
+    number = read_executive(sections.executive).sol
+    cases = read_case_control(sections.case_control, refuse=False).subcases
+    asked = {_ANALYSES.get(case.analysis.upper(), number) for case in cases}
+    if not number or asked & _SOLVERS.keys():
+        return []
+    return [_unsupported(path, number)]
+
+
+def _unsupported(path: Path, number: int) -> str:
+    return (
+        f"{path}: SOL {number} is not supported; expected "
+        f"{', '.join(map(str, _SOLVERS))}"
+    )
+
+
 def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     """Subcases by the solution that they ask for, in order.
 
@@ -85,10 +113,7 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     for subcase in deck.case_control:
         number = _ANALYSES.get(subcase.analysis.upper(), deck.sol)
         if number not in _SOLVERS:
-            raise InputError(
-                f"{deck.path}: SOL {number} is not supported; expected "
-                f"{', '.join(map(str, _SOLVERS))}"
-            )
+            raise InputError(_unsupported(deck.path, number))
         work.setdefault(number, []).append(subcase)
     if not work:
         raise InputError(f"{deck.path}: no subcases")
