@@ -29,6 +29,7 @@ from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
 from drake_landing.case.section import Section, number
+from drake_landing.files import relative_to_case
 from drake_landing.gears.data import AnyGear
 from drake_landing.parametric import registered
 from fem.errors import nearest
@@ -134,12 +135,7 @@ class Matrices(Section):
     @field_validator("files", "grids", mode="after")
     @classmethod
     def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
-        folder = (info.context or {}).get("folder")
-        if not folder:
-            return found
-        if isinstance(found, tuple):
-            return tuple(Path(folder, path) for path in found)
-        return Path(folder, found)
+        return relative_to_case(found, info.context)
 
 
 class Airframe(Section):
@@ -236,8 +232,7 @@ class Airframe(Section):
     @field_validator("deck", mode="after")
     @classmethod
     def _relative_to_case(cls, deck: Path | None, info: ValidationInfo) -> Path | None:
-        folder = (info.context or {}).get("folder")
-        return Path(folder, deck) if deck and folder else deck
+        return relative_to_case(deck, info.context)
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:

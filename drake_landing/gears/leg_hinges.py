@@ -117,6 +117,11 @@ def elastic_kinds(leg: Leg | None) -> tuple[str, ...]:
     """Those of `KINDS` that a leg has."""
     if leg is None:
         return ()
+    if leg.reduced is not None:
+        raise ValueError(
+            "leg.reduced: its files have not been read yet, expected gears from "
+            "drake_landing.reduced.legs.with_read_legs"
+        )
     if leg.matrix is not None:
         return KINDS
     beam = KINDS[:2] if leg.beam is not None else ()

@@ -6,11 +6,19 @@ the leg alone: root clamped, shock absorber locked, wheels and bogie beam free t
 off the ground, one motion at a time. SI units except angles in degrees.
 """
 
-from typing import Annotated, Self
+from pathlib import Path
+from typing import Annotated, Any, Self
 
 import numpy as np
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import (
+    AfterValidator,
+    Field,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
 
+from drake_landing.files import relative_to_case
 from drake_landing.gears.parts import Data, Positive, Table, Vector3
 
 _HIGHEST = 200.0  # Hz
@@ -171,6 +179,38 @@ class LegMatrix(Data):
         return self
 
 
+class ReducedLeg(Data):
+    """A finite-element model of the leg, reduced to its root and its axle; SI.
+
+    E.g. of `drake-landing reduce LEG.bdf`. It gives the stiffness at the axle; masses
+    stay those of the gear, and what the matrices have is compared.
+    """
+
+    files: tuple[Path, ...] = Field(
+        min_length=1,
+        description="DMIG (punch), OUTPUT4 or HDF5 of MSC Nastran, relative to the "
+        "case file",
+    )
+    grids: Path = Field(
+        description="CSV table of the grids in the order of the matrices: id, x, y, z "
+        "[, components]",
+    )
+    root: int = Field(gt=0, description="grid that the fitting clamps")
+    axle: int = Field(
+        gt=0, description="grid at the axle, of a bogie at the pivot of its beam"
+    )
+    stiffness: str = Field(default="KRED", description="name of K")
+    mass: str = Field(default="MRED", description="name of M")
+    damping_ratio: float = Field(
+        default=0.03, ge=0, lt=1, description="of critical, >= 0 and < 1"
+    )
+
+    @field_validator("files", "grids", mode="after")
+    @classmethod
+    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
+        return relative_to_case(found, info.context)
+
+
 class Leg(Data):
     """Flexibility of a leg between fitting and axle."""
 
@@ -191,6 +231,9 @@ class Leg(Data):
     matrix: LegMatrix | None = Field(
         default=None, description="bendings and torsion from a stiffness at the axle"
     )
+    reduced: ReducedLeg | None = Field(
+        default=None, description="such a matrix from the files of a reduced model"
+    )
     torsion: Torsion | None = Field(
         default=None, description="about the strut axis; default rigid"
     )
@@ -199,21 +242,27 @@ class Leg(Data):
     def _some_law(self) -> Self:
         own = [n for n in ("fore_aft", "lateral") if getattr(self, n) is not None]
         own += ["root"] if self.root else []
-        for name, others in (("beam", own), ("matrix", [*own, "beam", "torsion"])):
+        more = [*own, "beam", "torsion"]
+        for name, others in (
+            ("beam", own),
+            ("matrix", more),
+            ("reduced", [*more, "matrix"]),
+        ):
             clash = [n for n in others if getattr(self, n) is not None]
             if getattr(self, name) is not None and clash:
                 raise ValueError(f"found {name} and {clash[0]}, expected one of them")
         if not (self.bends or self.torsion):
             raise ValueError(
-                "found nothing that bends, expected fore_aft, lateral, torsion, beam "
-                "or matrix"
+                "found nothing that bends, expected fore_aft, lateral, torsion, beam, "
+                "matrix or reduced"
             )
         return self
 
     @property
     def bends(self) -> bool:
         """Not only twists."""
-        return bool(self.beam or self.matrix or self.fore_aft or self.lateral)
+        whole = self.beam or self.matrix or self.reduced
+        return bool(whole or self.fore_aft or self.lateral)
 
 
 def require_over_stroke(leg: Leg, stroke: float, sliding: bool) -> None:

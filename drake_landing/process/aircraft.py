@@ -12,6 +12,7 @@ from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.case.schema import Airframe, Case, Matrices
 from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft
+from drake_landing.reduced.legs import with_read_legs
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
@@ -35,13 +36,15 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         if deck is None or not deck.is_file():
             raise InputError(f"airframe.deck: {_not_a_file(deck)}")
         assert not isinstance(case.gears, str)  # the case sees to it
+        gears, notices = with_read_legs(case.gears)
         return Aircraft(
             name=deck.stem,
             topology=airframe.topology or "",
             deck=deck,
             units=airframe.units,
             read=_damped(read, airframe.damping),
-            gears=tuple(case.gears),
+            gears=gears,
+            notices=notices,
             monitoring=airframe.monitoring,
             scenario=_with_lift_nodes(case.scenario),
             interface=airframe.interface,
@@ -50,11 +53,13 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
     out.mkdir(parents=True, exist_ok=True)
     with _as_field("airframe.topology", "topology: "):
         written = model.write(out / "airframe.bdf", airframe.topology)
+    gears, notices = with_read_legs(_gears(case, written))
     return Aircraft(
         name=written.name,
         topology=written.topology,
         deck=out / "airframe.bdf",
-        gears=_gears(case, written),
+        gears=gears,
+        notices=notices,
         monitoring={**written.monitoring, **airframe.monitoring},
         scenario=_with_lift_nodes(case.scenario, written.lift_nodes),
         interface=tuple(sorted({*written.interface, *airframe.interface})),

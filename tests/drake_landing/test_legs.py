@@ -215,7 +215,7 @@ def test_beam_leg_in_a_gear_has_its_stiffness_at_the_axle():
     assert_allclose(rig.law.stiffness[0], k * arm**2 * np.eye(2), rtol=1e-9)
 
 
-def _cantilever(length, bending, twisting=2e6, stretching=1e9):
+def cantilever(length, bending, twisting=2e6, stretching=1e9):
     """(6, 6) stiffness at the lower end of an upright cantilever, not round, in B.
 
     Flexibility along -z: deflection L³/3EI, slope L²/2EI, under a moment L/EI.
@@ -229,9 +229,9 @@ def _cantilever(length, bending, twisting=2e6, stretching=1e9):
     return np.linalg.inv(C)
 
 
-def test_leg_from_a_matrix_deflects_and_slopes_as_its_cantilever():
+def test_leg_from_a_matrix_deflects_and_slopes_as_itscantilever():
     length, bending = 2.4, (2e7, 3e7)
-    K = _cantilever(length, bending)
+    K = cantilever(length, bending)
     rig = Rig(aircraft_gears()[1], matrix={"stiffness": K.tolist()})
     # The hinge of a cantilever lies two thirds of it above the end.
     arm = 2 * length / 3
@@ -250,7 +250,7 @@ def test_leg_from_a_matrix_deflects_and_slopes_as_its_cantilever():
 
 
 def test_matrix_of_a_leg_keeps_the_coupling_of_bending_and_torsion():
-    K = _cantilever(2.4, (2e7, 3e7))
+    K = cantilever(2.4, (2e7, 3e7))
     # An axle ahead of the strut: moved 0.3 m forward, seen from there.
     shift = np.eye(6)
     shift[:3, 3:] = -np.array([[0, 0, 0], [0, 0, 0.3], [0, -0.3, 0]])
@@ -265,7 +265,7 @@ def test_matrix_of_a_leg_keeps_the_coupling_of_bending_and_torsion():
 
 
 def test_matrices_that_no_clamped_leg_has_are_refused():
-    K = _cantilever(2.4, (2e7, 3e7))
+    K = cantilever(2.4, (2e7, 3e7))
     uneven, loose = K.copy(), K.copy()
     uneven[0, 4] *= 1.1
     loose[2] = loose[:, 2] = 0.0
