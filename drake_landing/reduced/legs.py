@@ -88,8 +88,8 @@ def _mass_notice(model: ReducedModel, gear: LandingGear) -> list[str]:
     if least * (1 - _MASS_OFF) <= found <= most * (1 + _MASS_OFF):
         return []
     return [
-        f"the matrices have a mass of {found:.4g} kg, the gear without wheels {least:.4g} "
-        f"kg below its fitting and {most:.4g} kg with it: the gear's masses are used"
+        f"the matrices have a mass of {found:.4g} kg, the gear without wheels "
+        f"{least:.4g} kg below its fitting and {most:.4g} kg with it: the gear's masses are used"
     ]
 
 
