@@ -89,7 +89,7 @@ def _mass_notice(model: ReducedModel, gear: LandingGear) -> list[str]:
         return []
     return [
         f"the matrices have a mass of {found:.4g} kg, the gear without wheels "
-        f"{least:.4g} kg below its fitting and {most:.4g} kg with it: the gear's masses are used"
+        f"{least:.4g} kg below its fitting and {most:.4g} kg with it, which are used"
     ]
 
 
