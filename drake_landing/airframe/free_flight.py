@@ -93,8 +93,10 @@ def _loose(structure: Structure, mechanisms: list[Mechanism]) -> Counter[str]:
     """What moves beyond the rigid-body motions, and in how many ways."""
     texts: list[str] = []
     airframe = max(mechanisms, key=lambda m: len(m.rows), default=None)
+    # Generalised coordinates of a reduction have no place that a rigid motion moves.
+    moved = int(structure.rigid_body.any(axis=1).sum())
     for mechanism in mechanisms:
-        if mechanism is airframe and 2 * len(mechanism.rows) > structure.size:
+        if mechanism is airframe and 2 * len(mechanism.rows) > moved:
             texts += [
                 _names(structure, mechanism.rows[rows])
                 for rows in _beyond_rigid(structure, mechanism)

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.gear_places import place_remarks, shell_attachments
 from drake_landing.case.axes import gear_in_A
 from drake_landing.gears.bodies import mass_points, tip_below_root, wheel_centres
 from drake_landing.gears.data import LandingGear, LeveredGear
@@ -55,7 +56,17 @@ def check_gears(
     if problems:
         raise InputError(problems)
     weight = structure.rigid_mass
-    return gear_remarks(gears, weight.total, R_AB @ weight.center)
+    mass, p_AG = weight.total, R_AB @ weight.center
+    fields = {
+        node: f"gears.{gear.name}.attachment_node"
+        for gear in aircraft.gears
+        for node in [gear.attachment_node]
+    }
+    return (
+        *gear_remarks(gears, mass, p_AG),
+        *place_remarks(gears, places, mass, p_AG),
+        *shell_attachments(structure, fields),
+    )
 
 
 def gear_problems(

@@ -20,15 +20,17 @@ from drake_landing.airframe.damping import damping_story
 from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_free_flight, check_mass
 from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.airframe.gear_places import clearances, pitch_of_all
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.pulses import GearPulses
 from drake_landing.airframe.relevance import ModalModel
 from drake_landing.airframe.selection import expected_pulses
 from drake_landing.airframe.truncation import WANTED, below, frequency_for, point_errors
 from drake_landing.cache import Cache
-from drake_landing.case.axes import rotation_AB
+from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
+from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import prepare_aircraft
@@ -87,7 +89,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
             truncated = _truncated(case, shapes, pulses)
         _dry_run(case, aircraft, structure)
     lines = [*_airframe(case, aircraft, structure, cost, truncated)]
-    lines += _gears(aircraft)
+    lines += [*_gears(aircraft), *_touchdown(case, aircraft)]
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
     if step is not None:
@@ -214,6 +216,26 @@ def _gears(aircraft: Aircraft) -> Iterator[str]:
             f"{gear.name:<{width}}  {gear.kind}, {wheels} wheel{'s' * (wheels > 1)}, "
             f"{gear.mass:,.1f} kg, stroke {gear.shock_absorber.stroke:g} m, at grid "
             f"{held}",
+        )
+
+
+def _touchdown(case: Case, aircraft: Aircraft) -> Iterator[str]:
+    """Which gears touch first, and at which pitch all would."""
+    s = aircraft.scenario
+    if s.start != "touchdown":
+        return
+    gears = [
+        gear_in_A(gear, rotation_AB(case.airframe.axes)) for gear in aircraft.gears
+    ]
+    R_WB = attitude(*np.radians([s.roll, s.pitch, s.yaw]))
+    above = ", ".join(
+        f"{name} {height:.3f} m" for name, height in clearances(gears, R_WB).items()
+    )
+    yield _line("", f"at touchdown over the lowest wheel: {above}")
+    pitch = pitch_of_all(gears)
+    if pitch is not None:
+        yield _line(
+            "", f"all gears touch at once at a pitch of {np.degrees(pitch):z.2f}°"
         )
 
 

@@ -8,10 +8,19 @@ from numpy.testing import assert_allclose
 from pydantic import ValidationError
 
 from drake_landing.airframe.gear_checks import gear_problems, gear_remarks, static_loads
+from drake_landing.airframe.gear_places import (
+    clearances,
+    pitch_of_all,
+    place_remarks,
+    shell_attachments,
+)
 from drake_landing.case.reading import load_case
 from drake_landing.gears.holds import attachment_places
+from drake_landing.landing.initial_state import attitude
 from drake_landing.process.explain import explain
+from fem.deck.reader import read_deck
 from fem.errors import InputError
+from fem.model.structure import Structure
 from tests.drake_landing.landing_gears import (
     aircraft_gears,
     bogie_main,
@@ -67,6 +76,63 @@ def test_a_deck_that_points_the_other_way_is_noticed():
 def test_one_gear_alone_cannot_carry_an_aircraft():
     assert static_loads([LEFT], BODY.mass, BODY.p_BG) is None
     assert _remarks(LEFT) == ()
+    (beside,) = place_remarks([LEFT], _places([LEFT]), BODY.mass, BODY.p_BG)[-1:]
+    assert "of all wheels: it cannot stand on them" in beside
+
+
+def _places_told(*gears):
+    return place_remarks(gears, _places(gears), BODY.mass, BODY.p_BG)
+
+
+def test_gears_that_stand_well_have_no_remarks_on_places():
+    assert _places_told(NOSE, LEFT, RIGHT) == []
+
+
+def test_two_gears_on_one_grid_and_a_wheel_on_the_other_side_are_said():
+    both = changed(RIGHT, attachment_node=LEFT.attachment_node)
+    told = _places_told(NOSE, LEFT, both)
+    assert any(f"is that of {LEFT.name} too" in text for text in told)
+    assert any("m to port" in text and "m to starboard" in text for text in told)
+
+
+@pytest.mark.parametrize(("x", "where"), [(60.0, "ahead of"), (-5.0, "behind")])
+def test_a_centre_of_gravity_outside_all_wheels_is_said(x, where):
+    gears = [changed(g, axle=(x, *g.axle[1:])) for g in (LEFT, RIGHT)]
+    assert any(f"m {where} all wheels" in text for text in _places_told(*gears))
+
+
+def test_all_gears_touch_at_the_pitch_that_is_told():
+    gears = (NOSE, LEFT, RIGHT)
+    raised = changed(NOSE, axle=(*NOSE.axle[:2], NOSE.axle[2] + 0.08))
+    level = clearances((raised, LEFT, RIGHT), np.eye(3))
+    before = clearances(gears, np.eye(3))
+    assert level["nose"] - before["nose"] == pytest.approx(0.08, abs=1e-9)
+    pitch = pitch_of_all((raised, LEFT, RIGHT))
+    assert pitch is not None
+    assert pitch < pitch_of_all(gears)
+    found = clearances((raised, LEFT, RIGHT), attitude(0.0, pitch, 0.0))
+    assert max(found.values()) < 1e-9
+    assert pitch_of_all((LEFT, RIGHT)) is None
+
+
+def test_a_bare_shell_grid_is_no_fitting(tmp_path):
+    text = """BEGIN BULK
+MAT1,1,7.+10,,.3,2700.
+PSHELL,1,1,.01,1,,1
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,9,,.5,.5,0.
+CQUAD4,1,1,1,2,3,4
+RBE3,7,,9,123456,1.,123,1,2
+,3,4
+ENDDATA
+"""
+    (tmp_path / "a.bdf").write_text(text)
+    structure = Structure.from_deck(read_deck(tmp_path / "a.bdf"))
+    (told,) = shell_attachments(structure, {2: "gears.a", 9: "gears.b"})
+    assert told.startswith("gears.a: grid 2 belongs to shells only (CQUAD4)")
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from drake_landing.landing.handover import smooth_curve
 from drake_landing.landing.history import LandingHistory
 from drake_landing.landing.run import build_landing, fly
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.explain import explain
 from drake_landing.process.run import run_case
 from drake_landing.reduced.imported import read_reduced
 from drake_landing.reduced.make import reduce_structure
@@ -96,6 +97,21 @@ def test_the_landing_is_the_same(
             other = smooth_curve(history.time, found[name].to_numpy())(time)
             difference = np.abs(other - curve).max()
             assert difference < tolerance * np.abs(curve).max()
+
+
+@pytest.mark.parametrize("file", ["reduced.op4", "reduced.h5", "reduced.pch"])
+def test_check_accepts_more_fixed_interface_modes_than_interface(
+    tmp_path: Path, file: str
+) -> None:
+    """Generalised coordinates take no part in rigid motions."""
+    line = ["reduce", str(TINY / "tiny_aircraft.bdf"), "--interface", "51,52,53"]
+    line += ["--basis", "craig-bampton", "--out", str(tmp_path)]
+    assert guarded(app, line) == 0
+    case = case_of(matrices(tmp_path, file))
+    points = {"nose": 51, "tail": 52}
+    airframe = case.airframe.model_copy(update={"monitoring": points})
+    told = explain(case.model_copy(update={"airframe": airframe}), tmp_path)
+    assert "6 rigid-body motions, no mechanism" in told
 
 
 def test_the_whole_process_runs_on_matrices(reduced: Path, tmp_path: Path) -> None:
