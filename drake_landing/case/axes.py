@@ -23,6 +23,26 @@ def rotation_AB(axes: Axes) -> Float64:
     return np.stack([aft, np.cross(up, aft), up])
 
 
+def axis_words(R_AB: Float64) -> dict[str, str]:
+    """Where the axes of B point: `{"x": "aft", "y": "starboard", "z": "up"}`."""
+    ways = (("aft", "forward"), ("starboard", "port"), ("up", "down"))
+    found = {}
+    for name, column in zip("xyz", R_AB.T):
+        at = int(np.abs(column).argmax())
+        found[name] = ways[at][int(column[at] < 0.0)]
+    return found
+
+
+def deck_axes(R_AB: Float64) -> str:
+    """`x aft, y starboard, z up`: the axes of B in words."""
+    return ", ".join(f"{name} {way}" for name, way in axis_words(R_AB).items())
+
+
+def vertical_axis(R_AB: Float64) -> str:
+    """The axis of B that is vertical in level attitude: x, y or z."""
+    return "xyz"[int(np.abs(R_AB[2]).argmax())]
+
+
 def gear_in_A(gear: LandingGear, R_AB: Float64) -> LandingGear:
     """A gear whose positions, directions and inertias are given in B, in A."""
     places = {name: _turned(R_AB, getattr(gear, name)) for name in gear.positions}

@@ -131,7 +131,7 @@ def part_name(cutter: Cutter, beam: Beam, elements: Inventory) -> str:
         side = beam.outward
     if not component or component in elements.kinds:
         where = "" if side == beam.outward else _WHERE[beam.outward]
-        return " ".join(filter(None, ["part", where, side and f"to {side}"]))
+        return " ".join(filter(None, [where, "part", side and f"to {side}"]))
     part = "" if side == beam.outward else beam.outward
     return ", ".join(filter(None, [component, side, part]))
 
@@ -148,7 +148,7 @@ def main_component(cut: Crossing, elements: Inventory) -> str:
     )
 
 
-_WHERE = {"aft": "behind", "fore": "ahead", "up": "above", "down": "below"}
+_WHERE = {"aft": "rear", "fore": "forward", "up": "upper", "down": "lower"}
 
 
 def _side(y: float) -> str:

@@ -301,6 +301,7 @@ def write_files(result: ProcessResult, out: Path) -> None:
         out / "results.h5",
         case=case_text(result.case),
         body=result.airframe.body,
+        R_AB=result.airframe.R_AB,
         history=history,
         loads=result.loads,
         response=result.response,

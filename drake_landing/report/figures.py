@@ -125,13 +125,17 @@ def accelerations(
 
 
 def spectra(
-    frequency: Float64, multibody: dict[str, Float64], transient: dict[str, Float64]
+    frequency: Float64,
+    multibody: dict[str, Float64],
+    transient: dict[str, Float64],
+    axis: str,
 ) -> str:
     """Shock response spectra of the vertical acceleration, point by point.
 
     Args:
         frequency: (f,) of the oscillators, Hz.
         multibody, transient: point -> (f,) m/s².
+        axis: of the deck, along which the points shake.
     """
     rows = -(-len(transient) // 2)
     with panels(rows, 2, height=2.3) as (figure, grid):
@@ -145,7 +149,7 @@ def spectra(
             axes.xaxis.minorticks_off()
             below = i + 2 >= len(transient)
             label = "frequency of the oscillator, Hz" if below else None
-            finish(axes, f"{words(point)}, z", "m/s²", x=label)
+            finish(axes, f"{words(point)}, {axis}", "m/s²", x=label)
             axes.tick_params(labelbottom=below)
         for axes in places[len(transient) :]:
             axes.set_visible(False)

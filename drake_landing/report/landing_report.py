@@ -8,9 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from drake_landing.case.axes import deck_axes
 from drake_landing.case.reading import case_text
 from drake_landing.files import versions
 from drake_landing.report import figures
+from drake_landing.report.axes_figure import axes_sketch
 from drake_landing.report.page import (
     Block,
     Page,
@@ -92,6 +94,7 @@ def write_report(
 def _sections(
     result: "ProcessResult", pictures: Sequence[Picture], unable: str
 ) -> Iterator[Section]:
+    yield _axes(result)
     yield Section(
         id="case",
         title="Case",
@@ -105,8 +108,10 @@ def _sections(
     yield Section(
         id="gears",
         title="Landing gears",
-        text="Tyre loads are those of the runway on the tyres of a gear: drag points "
-        "aft. The wheels stand still at touchdown and are spun up by the drag.",
+        text="Tyre loads are those of the runway on all tyres of a gear: vertical is "
+        "normal to the runway, drag along it, aft. Stroke and force of a shock "
+        "absorber are along its own axis, positive in compression. The wheels stand "
+        "still at touchdown and are spun up by the drag.",
         blocks=[
             Block(svg=figures.struts_and_tyres(result.history)),
             Block(svg=figures.force_over_stroke(result.history)),
@@ -116,8 +121,8 @@ def _sections(
         id="loads",
         title="Attachment loads",
         text="Force and moment of the gear on the airframe at the attachment node, in "
-        "the axes of the finite-element model, as increments to steady flight. These "
-        "load the full model.",
+        f"the axes of the deck ({deck_axes(result.airframe.R_AB)}), as increments to "
+        "steady flight; moments are about the node. These load the full model.",
         blocks=[Block(svg=figures.attachment_loads(result.history))],
     )
     yield _accelerations(result)
@@ -132,6 +137,24 @@ def _sections(
         blocks=[Block(svg=figures.energy(result.history))],
     )
     yield _tables(result)
+
+
+def _axes(result: "ProcessResult") -> Section:
+    R_AB, structure = result.airframe.R_AB, result.airframe.structure
+    gears = [n for gear in result.aircraft.gears for n in gear.attachments.values()]
+    sketch = axes_sketch(structure, R_AB, gears, list(result.parts.cuts.values()))
+    return Section(
+        id="axes",
+        title="Axes",
+        text="All on this page and in the files is along the axes x, y, z of the "
+        f"deck's basic frame ({deck_axes(R_AB)}) and in SI units (m, kg, s, N, Pa), "
+        "whatever the units of the deck, unless the line itself says otherwise. "
+        "Aircraft directions (aft, starboard, up) are those of the level aircraft and "
+        "turn with it. Loads, accelerations and stresses are increments to the steady "
+        "flight before touchdown where nothing else is said; time counts from the "
+        "start of the run.",
+        blocks=[Block(svg=sketch, caption="The arrows start at the deck's origin.")],
+    )
 
 
 def _late(result: "ProcessResult") -> list[Block]:
@@ -157,7 +180,9 @@ def _extremes(result: "ProcessResult") -> Section:
         text="Extremes of element forces and stresses in the direct transient, "
         "increments to steady flight: for each type and quantity the element that sees "
         "most. All elements: results.h5, group envelope; the worst ten: "
-        "worst_elements.csv. Columns and units are Nastran's and the deck's.",
+        "worst_elements.csv. Quantities and element axes are Nastran's; SI units (N, "
+        "N m, N/m of shells, Pa). Stresses of bars without stress recovery points "
+        "leave out bending.",
         blocks=[table_block(worst, _WORST, {"value": ".4g", "time": ".3f"})],
     )
 
@@ -175,9 +200,10 @@ def _accelerations(result: "ProcessResult") -> Section:
         title="Accelerations",
         text=f"Multibody with {mode_count(result)}, and the direct "
         "transient of the full model under the same attachment loads. Axes of the "
-        "model; components that vanish by symmetry are left out. The transient has the "
-        "modes above the last of the multibody model too: beside its raw peaks stand "
-        f"those without what lies above {result.airframe.highest_hz:.0f} Hz.",
+        f"deck ({deck_axes(result.airframe.R_AB)}); components that vanish by symmetry "
+        "are left out. The transient has the modes above the last of the multibody "
+        "model too: beside its raw peaks stand those without what lies above "
+        f"{result.airframe.highest_hz:.0f} Hz.",
         blocks=[
             *(Block(svg=picture) for picture in pictures if picture),
             table_block(
@@ -195,12 +221,17 @@ def _spectra(result: "ProcessResult") -> Section:
 
     def of(tables: dict[str, pd.DataFrame]) -> dict[str, np.ndarray]:
         return {
-            point: shock_response_spectrum(t["z"].to_numpy(), step, _SPECTRUM_HZ)
+            point: shock_response_spectrum(
+                t[result.vertical].to_numpy(), step, _SPECTRUM_HZ
+            )
             for point, t in tables.items()
         }
 
     picture = figures.spectra(
-        _SPECTRUM_HZ, of(result.multibody_on_grid), of(result.response)
+        _SPECTRUM_HZ,
+        of(result.multibody_on_grid),
+        of(result.response),
+        result.vertical,
     )
     return Section(
         id="spectra",
@@ -235,7 +266,14 @@ def _tables(result: "ProcessResult") -> Section:
         "gears.csv, the histories as CSV, the replay landing.html, and "
         "landing_sol109.bdf, the complete deck of the transient.",
         blocks=[
-            table_block(peaks, heads, formats, "Peaks per gear (largest magnitude)"),
+            table_block(
+                peaks,
+                heads,
+                formats,
+                "Peaks per gear (largest magnitude, with its sign): tyres in the "
+                "axes of the runway; F and M on the airframe at the attachment "
+                f"node, axes of the deck ({deck_axes(result.airframe.R_AB)})",
+            ),
             table_block(
                 result.stages.table(),
                 {
@@ -275,7 +313,7 @@ def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
         (
             "airframe",
             f"{result.airframe.grids} grids, {body.mass:,.0f} kg without gears, centre "
-            f"of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m",
+            f"of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m of the deck",
         ),
         ("basis", case.airframe.basis),
         ("elastic modes", f"{body.n} ({case.airframe.select}){last}"),

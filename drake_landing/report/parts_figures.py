@@ -83,7 +83,7 @@ def section_envelopes(
             label, then = f"at {time[instant]:.3f} s", factor * values[instant]
             curve(axes, beam.stations, then, INK, label, dashed=True)
             name = f"{beam.name}: {quantity}"
-            finish(axes, name, unit, x=f"cut at {beam.axis}, m")
+            finish(axes, name, unit, x=f"cut at {beam.axis} of the deck, m")
         legend(figure, grid[0][0])
         return svg(figure, f"section loads along the {beam.name}")
 
@@ -164,6 +164,7 @@ def equipment(
     frequency: Float64,
     spectra: Mapping[str, Float64],
     title: str,
+    axis: str,
 ) -> str:
     """Vertical accelerations of some places, and their shock response spectra.
 
@@ -172,14 +173,15 @@ def equipment(
         frequency: (f,) Hz.
         spectra: place -> (f,) m/s².
         title: what the places have in common.
+        axis: of the deck, the vertical one.
     """
     with panels(1, 2, height=2.2, shared=False) as (figure, grid):
         motion, response = grid[0]
         for color, name in zip((TRANSIENT, MULTIBODY, *SERIES), histories):
-            values, label = histories[name]["z"], name.split(",")[0]
+            values, label = histories[name][axis], name.split(",")[0]
             curve(motion, values.index, values, color, label)
             curve(response, frequency, spectra[name], color)
-        finish(motion, f"{title}: acceleration, z", "m/s²")
+        finish(motion, f"{title}: acceleration, {axis}", "m/s²")
         finish(response, "shock response spectrum", "m/s²", x="frequency, Hz")
         response.set_xscale("log")
         response.set_xticks([2, 5, 10, 20, 50, 100, 200])

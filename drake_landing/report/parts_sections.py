@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from drake_landing.case.axes import deck_axes
 from drake_landing.parts import tables
+from drake_landing.parts.watch import PartsFound
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
 from drake_landing.results.comparison import shock_response_spectrum
@@ -30,7 +32,7 @@ _COMPONENT = {
     "largest": "largest MPa",
     "smallest": "smallest MPa",
     "time": "time s",
-    "x": "x m",
+    "x": "at x m",
     "y": "y m",
     "z": "z m",
     "allowed": "allowable MPa",
@@ -180,16 +182,29 @@ def _section_loads(result: "ProcessResult") -> Section:
     return Section(
         id="sections",
         title="Section loads",
-        text="Resultant of the gears' loads and of the inertia of everything beyond "
-        "the cut, from the masses of the full model and its accelerations. Shear is "
-        "upward, bending lifts the outer end, torsion turns about the outward "
-        "direction. Shaded: extremes over time; dashed: when bending at the cut below "
-        "is largest. The equilibrium of the whole airframe is missed by "
+        text="Load case: the landing, as increments to steady flight. Elements that "
+        "cross a plane are cut; a section load is the resultant of the gears' loads "
+        "and of the inertia of what then hangs on the outer side. Shear is upward, "
+        "bending lifts the outer end, torsion turns about the outward direction (of "
+        "vertical parts shear and bending are to starboard); their axes in the deck "
+        "stand in the table. Moments refer to a point of each cut, in the table: "
+        f"{_points_said(found)}. Shaded: extremes over time; dashed: when bending at "
+        "the cut below is largest. The equilibrium of the whole airframe is missed by "
         f"{found.imbalance[0]:.0e} of the largest applied force and "
         f"{found.imbalance[1]:.0e} of the moment.{also} All six components: "
         "results.h5, group parts/sections; extremes: section_loads.csv.",
         blocks=blocks,
     )
+
+
+def _points_said(found: PartsFound) -> str:
+    lines = [name for name, cuts in found.cuts.items() if cuts.beam.line is not None]
+    if len(lines) == len(found.cuts):
+        return "where the part's reference line meets the cut"
+    centre = "the EA-weighted centre of the elements that are cut"
+    if not lines:
+        return centre
+    return f"{centre}; of {', '.join(lines)} where its reference line meets the cut"
 
 
 def _alike(a: np.ndarray, b: np.ndarray) -> bool:
@@ -207,16 +222,26 @@ def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
     table = table[keep].copy()
     kilo = ["min", "max"]
     table[kilo] = table[kilo] / 1e3
+    table["cut"] = [f"{row.axis} = {row.station:z.2f} m" for row in table.itertuples()]
+    table["acts"] = [
+        f"{row.quantity} {'along' if row.quantity == 'shear' else 'about'} "
+        f"{row.direction}"
+        for row in table.itertuples()
+    ]
     heads = {
-        "beam": "beam",
-        "station": "cut m",
-        "quantity": "quantity",
+        "beam": "part",
+        "cut": "cut at",
+        "point_x": "about x m",
+        "point_y": "y m",
+        "point_z": "z m",
+        "acts": "quantity",
         "min": "least kN, kNm",
         "time_of_min": "at s",
         "max": "largest kN, kNm",
         "time_of_max": "at s ",
     }
-    formats = {"station": ".2f", "min": ".1f", "max": ".1f"}
+    formats = {"min": ".1f", "max": ".1f"}
+    formats |= dict.fromkeys(("point_x", "point_y", "point_z"), ".2f")
     formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
     return table_block(table, heads, formats, "Extremes at these cuts")
 
@@ -242,7 +267,9 @@ def _panels(result: "ProcessResult") -> Section:
         id="panels",
         title="Between two frames",
         text="Acceleration of a point in the middle of a panel beside the mean of its "
-        "neighbours on the frames: what a model without the panel cannot show.",
+        "neighbours on the frames, along the axes of the deck "
+        f"({deck_axes(result.airframe.R_AB)}): what a model without the panel cannot "
+        "show.",
         blocks=[*pictures, table_block(table, heads, formats, "Peaks")],
     )
 
@@ -251,7 +278,9 @@ def _equipment(result: "ProcessResult") -> Section:
     histories = tables.equipment_histories(result.parts)
     step = result.loads.step
     spectra = {
-        name: shock_response_spectrum(table["z"].to_numpy(), step, SPECTRUM_HZ)
+        name: shock_response_spectrum(
+            table[result.vertical].to_numpy(), step, SPECTRUM_HZ
+        )
         for name, table in histories.items()
     }
     rows = []
@@ -285,6 +314,7 @@ def _equipment(result: "ProcessResult") -> Section:
                 SPECTRUM_HZ,
                 {n: spectra[n] for n in names},
                 title.replace("_", " "),
+                result.vertical,
             )
         )
         for title, names in groups.items()
@@ -294,7 +324,8 @@ def _equipment(result: "ProcessResult") -> Section:
         title="Floor, rails, equipment",
         text="Accelerations of places that carry equipment, and the largest "
         "acceleration of an oscillator (Q = 10) that stands there and is shaken "
-        "vertically, over its natural frequency.",
+        f"vertically (along {result.vertical}), over its natural frequency. Peaks are "
+        f"along the axes of the deck ({deck_axes(result.airframe.R_AB)}).",
         blocks=[
             *pictures,
             table_block(pd.DataFrame(rows), heads, formats, "Peaks and spectra"),

@@ -14,7 +14,8 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
     /parts/acceleration/<grid>   (t, 3), B; /parts/time
     /parts/stress       id, equivalent, time, largest, smallest of each element;
                         with axial_only these leave out bending
-    /airframe           frequency_hz, mass, cg, node_id
+    /airframe           frequency_hz, mass, cg and inertia (axes A: aft, starboard, up,
+                        origin of the deck), node_id; R_AB from the deck's axes to A
     /comparison, /gears   one dataset per column of the CSV tables
 """
 
@@ -66,6 +67,7 @@ def write_results(
     *,
     case: str,
     body: ModalBody,
+    R_AB: np.ndarray,
     history: LandingHistory,
     loads: AttachmentLoads,
     response: Mapping[str, pd.DataFrame],
@@ -80,6 +82,7 @@ def write_results(
         path: of the file.
         case: YAML of the case, defaults written out.
         body: the modal body of the run.
+        R_AB: (3, 3) from the deck's axes to the aircraft's, aft, starboard, up.
         history: the multibody run.
         loads: on the grid of the transient.
         response: acceleration of the monitoring points in the direct transient.
@@ -100,7 +103,7 @@ def write_results(
             for envelope in envelopes:
                 envelope.write(file)
             _write_parts(file.create_group("parts"), parts)
-            _write_airframe(file.create_group("airframe"), body)
+            _write_airframe(file.create_group("airframe"), body, R_AB)
             _write_table(file.create_group("comparison"), comparison)
             _write_table(file.create_group("gears"), gears)
 
@@ -169,7 +172,8 @@ def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
     stress["axial_only"] = table.axial_only.to_numpy(bool)
 
 
-def _write_airframe(group: h5py.Group, body: ModalBody) -> None:
+def _write_airframe(group: h5py.Group, body: ModalBody, R_AB: np.ndarray) -> None:
+    group["R_AB"] = R_AB
     group["frequency_hz"] = body.frequency
     group["modal_mass"] = body.modal_mass
     group["modal_damping"] = body.modal_damping

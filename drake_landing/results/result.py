@@ -8,6 +8,7 @@ import pandas as pd
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.body import AirframeModel
+from drake_landing.case.axes import vertical_axis
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import POINT, LandingHistory
@@ -62,6 +63,11 @@ class ProcessResult:
     practices: Practices | None = None
     notices: tuple[str, ...] = ()
     stages: Stages = field(default_factory=Stages, repr=False)
+
+    @property
+    def vertical(self) -> str:
+        """The axis of the deck that is vertical: x, y or z."""
+        return vertical_axis(self.airframe.R_AB)
 
     @property
     def seconds(self) -> Mapping[str, float]:

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from drake_landing.case.axes import axis_words
 from drake_landing.results.truncation import peaks_below
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ def key_figures(result: "ProcessResult") -> list[tuple[str, str]]:
         ("largest spin-up drag of a gear", _at(drag, 1e-3, "kN", ".1f")),
         ("largest stroke", _at(stroke, 1.0, "m", ".3f")),
         ("highest acceleration", _acceleration(result)),
-        ("multibody against direct transient", _difference(result.comparison)),
+        ("multibody against direct transient", _difference(result)),
     ]
 
 
@@ -60,7 +61,8 @@ def _acceleration(result: "ProcessResult") -> str:
     """Raw, without what lies above the last mode, and of the multibody model."""
     comparison = result.comparison
     row = comparison.iloc[int(np.argmax(comparison["peak_fe"].to_numpy()))]
-    where = f"{str(row['point']).replace('_', ' ')}, {row['axis']}"
+    way = axis_words(result.airframe.R_AB)[str(row["axis"])]
+    where = f"{str(row['point']).replace('_', ' ')}, along {row['axis']}: {way}"
     low = peaks_below(result).set_index(["point", "axis"]).peak_low
     below = f"below {result.airframe.highest_hz:.0f} Hz"
     return (
@@ -70,14 +72,17 @@ def _acceleration(result: "ProcessResult") -> str:
     )
 
 
-def _difference(comparison: pd.DataFrame) -> str:
+def _difference(result: "ProcessResult") -> str:
     """Of the vertical accelerations, or of all where none is vertical."""
-    vertical = comparison[comparison["axis"] == "z"].dropna(subset="rms_error")
+    comparison = result.comparison
+    vertical = comparison[comparison["axis"] == result.vertical].dropna(
+        subset="rms_error"
+    )
     errors = (vertical if len(vertical) else comparison.dropna())["rms_error"]
     if errors.empty:
         return "nothing moves"
     low, high = errors.min(), errors.max()
-    return f"rms {low:.1%} to {high:.1%} (vertical, all points)"
+    return f"rms {low:.1%} to {high:.1%} (vertical accelerations, all points)"
 
 
 def time_taken(result: "ProcessResult") -> list[str]:

@@ -117,9 +117,10 @@ def test_report_is_self_contained(result: ProcessResult, folder: Path) -> None:
     page = (folder / "report.html").read_text()
     assert "<script" not in page
     assert all(part.startswith("data:") for part in page.split('src="')[1:])
-    # Beams: right, left and length, of which left is left out; two pictures each.
-    parts = 1 + 2 * 2 + len(result.response)
-    assert page.count("<svg") == 5 + len(result.response) + parts
+    # Wing, tailplane, fin, forward and rear part: of two sides one; two pictures each.
+    assert page.count('aria-label="section loads along the') == 5
+    parts = 1 + 2 * 5 + len(result.response)
+    assert page.count("<svg") == 6 + len(result.response) + parts
     for figure, value in key_figures(result):
         assert figure in page
         assert value.split(" (")[0] in page

@@ -90,7 +90,7 @@ def parts() -> PartsFound:
         acceleration={7: np.ones((2, 3))},
         stress=pd.DataFrame(
             {"id": [1], **{key: [1.0] for key in ("equivalent", "time", "largest")}}
-        ).assign(smallest=-1.0),
+        ).assign(smallest=-1.0, axial_only=False),
     )
     return PartsFound(
         time=np.arange(2.0),
@@ -111,6 +111,7 @@ def test_results_file_reads_back(
         path,
         case="name: x\n",
         body=body,
+        R_AB=np.eye(3),
         history=history,
         loads=history.attachment_loads(),
         response={"tail": table(("x", "y", "z"))},
