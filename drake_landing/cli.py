@@ -88,7 +88,9 @@ def run(
 
 @app.command()
 def check(
-    case: Annotated[Path | None, typer.Argument(help="case file (YAML)")] = None,
+    case: Annotated[
+        Path | None, typer.Argument(help="case or campaign file (YAML)")
+    ] = None,
     schema: Annotated[
         bool, typer.Option("--schema", help="print the JSON schema of case files")
     ] = False,
@@ -108,6 +110,13 @@ def check(
         return
     if case is None:
         raise InputError("check: give a case file, or --schema")
+    from drake_landing.campaign.cases import is_campaign, load_campaign
+
+    if is_campaign(case):
+        from drake_landing.campaign.command import explain_campaign
+
+        print(explain_campaign(load_campaign(case)))
+        return
     checked = load_case(case)
     from drake_landing.process.explain import explain
 
@@ -187,6 +196,41 @@ def study(
     for row in findings(done).to_dict("records"):
         print(f"{row['finding']}: {row['figures']} -- {row['holds']}")
     print(f"\nreport: {folder / 'report.html'}")
+
+
+@app.command()
+def campaign(
+    file: Annotated[
+        Path, typer.Argument(metavar="CAMPAIGN.yaml", help="see docs/campaigns.md")
+    ],
+    out: Annotated[Path | None, _out("out/campaign/<name>")] = None,
+    scheduler: Annotated[
+        str,
+        typer.Option("--scheduler", help="local, here, or tcp://host:port of Dask"),
+    ] = "local",
+    workers: Annotated[
+        int | None, typer.Option("--workers", min=1, help="processes; default cores")
+    ] = None,
+    memory: Annotated[
+        float, typer.Option("--memory", min=0.0, help="GB per worker; 0: no limit")
+    ] = 0.0,
+    report: Annotated[
+        list[int] | None,
+        typer.Option("--report", help="case whose whole process is run, with report"),
+    ] = None,
+    compare: Annotated[
+        Path | None,
+        typer.Option("--compare", help="folder of another campaign: what grew"),
+    ] = None,
+) -> None:
+    """Many landings: stress of every element, envelopes, critical cases; goes on."""
+    from drake_landing.campaign.command import campaign_command
+    from drake_landing.campaign.engine import Pool
+
+    pool = Pool(scheduler=scheduler, workers=workers, memory_gb=memory)
+    failed = campaign_command(file, out, pool, report or [], compare)
+    if failed:
+        raise typer.Exit(3)
 
 
 @app.command()

@@ -8,7 +8,7 @@ import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 import yaml
 from pydantic import BaseModel, ValidationError
@@ -23,6 +23,7 @@ _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _FIELD = re.compile(r"([a-z]\w*(?:\.\w+)*): ")
 
 Loc = tuple[int | str, ...]
+M = TypeVar("M", bound=BaseModel)
 
 
 def load_case(path: Path) -> Case:
@@ -31,7 +32,7 @@ def load_case(path: Path) -> Case:
     Raises:
         InputError: the file cannot be read, or its content is not a valid case.
     """
-    text = _read(path)
+    text = read_text(path)
     if re.search(r"(?im)^\s*(begin\s+bulk|cend|enddata)", text):
         raise InputError(
             f"{path}: is a Nastran deck, expected a case file (YAML), which names the "
@@ -48,6 +49,24 @@ def parse_case(text: str, *, file: str = "<case>", folder: Path | None = None) -
         file: how messages name the source.
         folder: of relative paths.
     """
+    case, places = parse_model(Case, text, file=file, folder=folder)
+    return case.written_at(places)
+
+
+def parse_model(
+    model: type[M], text: str, *, file: str, folder: Path | None = None
+) -> tuple[M, Places]:
+    """Validates YAML as a model; the places of its fields.
+
+    Args:
+        model: of the whole document.
+        text: YAML.
+        file: how messages name the source.
+        folder: of relative paths.
+
+    Raises:
+        InputError: every problem, each with its line and field.
+    """
     try:
         tree = yaml.compose(text, Loader=yaml.SafeLoader)
         data = yaml.safe_load(text)
@@ -57,18 +76,18 @@ def parse_case(text: str, *, file: str = "<case>", folder: Path | None = None) -
         raise InputError(
             f"{file}:1: expected a mapping of sections, found {_kind(data)}"
         )
-    places = Places.of(file, tree, frozenset(Case.model_fields))
+    places = Places.of(file, tree, frozenset(model.model_fields))
     problems = [f"{file}:{line}: {text}" for line, text in _repeated_keys(tree)]
     data.pop("$schema", None)  # for editors
     try:
-        case = Case.model_validate(data, context={"folder": folder})
+        found = model.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        found = [_problem(places, dict(e), data) for e in error.errors()]
-        problems += [f"{file}:{line}: {text}" for line, text in sorted(set(found))]
+        wrong = [_problem(model, places, dict(e), data) for e in error.errors()]
+        problems += [f"{file}:{line}: {text}" for line, text in sorted(set(wrong))]
         raise InputError(problems) from None
     if problems:
         raise InputError(problems)
-    return case.written_at(places)
+    return found, places
 
 
 def case_text(case: Case) -> str:
@@ -83,7 +102,12 @@ def schema_text() -> str:
     return json.dumps(schema, indent=2, ensure_ascii=False)
 
 
-def _read(path: Path) -> str:
+def read_text(path: Path) -> str:
+    """Text of a case file.
+
+    Raises:
+        InputError: it cannot be read.
+    """
     try:
         return path.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -127,10 +151,10 @@ def _repeated_keys(node: yaml.Node, path: str = "") -> list[tuple[int, str]]:
 
 
 def _problem(
-    places: Places, error: dict[str, Any], data: dict[str, Any]
+    model: type[BaseModel], places: Places, error: dict[str, Any], data: dict[str, Any]
 ) -> tuple[int, str]:
-    """Line and text of one pydantic error in a case."""
-    models, field, loc = _resolve(error["loc"])
+    """Line and text of one pydantic error."""
+    models, field, loc = _resolve(model, error["loc"])
     path = ".".join(map(str, loc))
     text = _explain(error, models, field, loc)
     if not path:  # of the whole case: the text itself names the field
@@ -194,9 +218,11 @@ def _show(value: Any) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _resolve(loc: Loc) -> tuple[list[type[BaseModel]], FieldInfo | None, Loc]:
+def _resolve(
+    root: type[BaseModel], loc: Loc
+) -> tuple[list[type[BaseModel]], FieldInfo | None, Loc]:
     """The models that hold the last key, its field, and the path without union tags."""
-    models: list[type[BaseModel]] = [Case]
+    models: list[type[BaseModel]] = [root]
     field: FieldInfo | None = None
     path: list[int | str] = []
     for i, step in enumerate(loc):

@@ -141,6 +141,12 @@ class PartsWatch:
         self._velocity = Observation("velocity", operator) if self._drag else None
 
     @property
+    def rows(self) -> pd.DataFrame:
+        """What is told of each element, in the order of the stresses; column `id`."""
+        rows = self._rows.reset_index()
+        return rows.assign(axial_only=self.stresses.axial_only)
+
+    @property
     def observers(self) -> list[Observer]:
         """To be given to the transient."""
         moved: list[Observer] = [self._motion]

@@ -34,6 +34,7 @@ from fem.recovery.envelope import Envelope
 from fem.response.direct import TransientRun
 
 Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +80,7 @@ def full_response(
     steady, slices = _static(aircraft, structure, landing, instants, cache)
 
     stages.begin("maps of stresses and section loads")
-    watch = _watch(case, aircraft, airframe, landing, steady)
+    watch = parts_watch(case, aircraft, structure, landing.node_id, steady)
     envelopes = element_envelopes(structure)
 
     stages.begin("direct transient", f"({len(loads)} load cases)")
@@ -144,18 +145,23 @@ def _static(
     return steady, still.take(slice(flights, None)) if instants else None
 
 
-def _watch(
+def parts_watch(
     case: Case,
     aircraft: Aircraft,
-    airframe: AirframeModel,
-    loads: AttachmentLoads,
+    structure: Structure,
+    loaded: Int64,
     steady: Float64 | None,
 ) -> PartsWatch:
-    """What is looked at in the transient."""
-    cutter = Cutter(airframe.structure)
-    elements = inventory(
-        airframe.structure, case.parts.allowables, case.parts.components
-    )
+    """What is looked at in transients of a case.
+
+    Args:
+        case, aircraft: of the run.
+        structure: the full model.
+        loaded: (k,) nodes that loads act on.
+        steady: (f,) displacements of steady flight, None: not known.
+    """
+    cutter = Cutter(structure)
+    elements = inventory(structure, case.parts.allowables, case.parts.components)
     return PartsWatch(
         cutter,
         places_of(
@@ -163,13 +169,13 @@ def _watch(
             case.parts,
             rotation_AB(case.airframe.axes),
             aircraft.monitoring,
-            aircraft.known_places(airframe.structure),
+            aircraft.known_places(structure),
             elements,
-            loads.node_id.tolist(),
+            loaded.tolist(),
         ),
         elements,
         list(aircraft.monitoring.values()),
-        loads.node_id,
+        loaded,
         averaged=case.transient.scheme == "nastran",
         steady=steady,
     )

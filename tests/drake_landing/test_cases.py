@@ -7,11 +7,21 @@ import jsonschema
 import pytest
 import yaml
 
+from drake_landing.campaign.cases import is_campaign, load_campaign
+from drake_landing.campaign.run import expand
 from drake_landing.case.reading import case_text, load_case, parse_case, schema_text
 from drake_landing.process.explain import explain
 from fem.errors import InputError
 
-CASES = sorted(Path(__file__).parents[2].joinpath("cases").rglob("*.yaml"))
+FILES = sorted(Path(__file__).parents[2].joinpath("cases").rglob("*.yaml"))
+CASES = [path for path in FILES if not is_campaign(path)]
+CAMPAIGNS = [path for path in FILES if is_campaign(path)]
+
+
+@pytest.mark.parametrize("path", CAMPAIGNS, ids=lambda path: path.stem)
+def test_campaigns_expand_to_valid_cases(path: Path) -> None:
+    rows, cases = expand(load_campaign(path))
+    assert len(rows) == len(cases) > 1
 
 
 @pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)

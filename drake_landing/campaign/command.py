@@ -1,0 +1,123 @@
+"""`drake-landing campaign`: from the file to the folder of results, in words."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from drake_landing.campaign.cases import load_campaign
+from drake_landing.campaign.compare import compare_campaigns
+from drake_landing.campaign.critical_decks import write_critical_decks
+from drake_landing.campaign.engine import Pool
+from drake_landing.campaign.run import (
+    CampaignResult,
+    expand,
+    failure_message,
+    run_campaign,
+)
+from drake_landing.campaign.schema import Campaign
+from drake_landing.files import write_csv
+from drake_landing.output import claim
+from drake_landing.process.run import run_case
+from drake_landing.progress import reporter
+from fem.errors import InputError
+
+
+def campaign_command(
+    file: Path,
+    out: Path | None,
+    pool: Pool,
+    reports: Sequence[int],
+    compare: Path | None,
+) -> int:
+    """Runs or goes on with a campaign, prints what it found.
+
+    Returns:
+        Cases that have no result that can be trusted.
+
+    Raises:
+        InputError: campaign, case, deck or gears are at fault.
+    """
+    campaign = load_campaign(file)
+    folder = claim(out or Path("out", "campaign", campaign.name), f"campaign {file}")
+    if reports:
+        _reports(campaign, folder, reports)
+    with reporter() as progress:
+        result = run_campaign(campaign, folder, pool, progress)
+        decks = write_critical_decks(result)
+    print(_summary(result, len(decks)))
+    if compare is not None:
+        for name, table in compare_campaigns(compare, folder).items():
+            write_csv(folder / f"compared_{name}.csv", table.reset_index())
+            print(f"\n{name}, before and after:\n{table.head(10).to_string()}")
+    print(f"\npage: {folder / 'campaign.html'}")
+    return len(result.failed)
+
+
+_USUAL = 1.5  # s, of a landing that goes on until it has shown its extremes
+
+
+def explain_campaign(campaign: Campaign) -> str:
+    """How many cases, and what they will cost.
+
+    Raises:
+        InputError: every problem of every case.
+    """
+    rows, cases = expand(campaign)
+    given = [case.simulation.duration for case in cases]
+    duration = [d if isinstance(d, float | int) else _USUAL for d in given]
+    steps = max(1.0, duration[0] / cases[0].transient.step)
+    confirmed = min(len(rows), campaign.confirm.sample + campaign.confirm.most)
+    axes = "\n".join(
+        f"    {name}: {', '.join(map(_short, rows[name].unique()[:6]))}"
+        + (" ..." if rows[name].nunique() > 6 else "")
+        for name in rows.columns
+    )
+    return (
+        f"{campaign.name}: {len(rows)} landings of {campaign.base}\n{axes}\n"
+        f"  landings    about {3 * sum(duration):.0f} s of processor time to fly, "
+        f"files of {1e-6 * steps * 4 * 120 * len(rows):.0f} MB\n"
+        f"  confirmed   {campaign.confirm.sample} drawn at random and at most "
+        f"{campaign.confirm.most} that decide: {confirmed} direct transients of "
+        f"{steps:.0f} steps in blocks of {campaign.confirm.block}\n"
+        f"run it: drake-landing campaign {campaign.places.file}"
+    )
+
+
+def _short(value: object) -> str:
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def _reports(campaign: Campaign, folder: Path, numbers: Sequence[int]) -> None:
+    """The whole process of some cases."""
+    _, cases = expand(campaign)
+    unknown = [n for n in numbers if not 0 <= n < len(cases)]
+    if unknown:
+        raise InputError(
+            f"--report: found {n}, expected a case from 0 to {len(cases) - 1}"
+            for n in unknown
+        )
+    for number in numbers:
+        place = folder / "reports" / f"{number:06d}"
+        with reporter() as progress:
+            run_case(cases[number], place, progress)
+
+
+def _summary(result: CampaignResult, decks: int) -> str:
+    lines = [
+        f"{len(result.flown)} of {len(result.design)} landings done, "
+        f"{len(result.sample) + len(result.critical)} confirmed by direct transients"
+    ]
+    left = len(result.within_band.index.difference([*result.sample, *result.critical]))
+    if left:
+        lines.append(
+            f"{left} more landings lie within the screening's error of some element's "
+            "largest stress; confirm.most would have to be raised to confirm them"
+        )
+    if not result.errors.empty:
+        worst = result.errors["peak"].abs().max()
+        lines.append(f"screening: components' largest stresses within {worst:.1%}")
+    lines += [f"case {n}: {failure_message(result, n)}" for n in result.failed[:10]]
+    if len(result.failed) > 10:
+        lines.append(f"... {len(result.failed)} cases failed or are suspect")
+    if decks:
+        lines.append(f"{decks} decks of equivalent static cases in static/")
+    return "\n".join(lines)

@@ -1,0 +1,162 @@
+"""Direct transients of chosen landings, in blocks, with the stress of every element."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from drake_landing.campaign.setup import (
+    SetupFile,
+    TransientSetup,
+    read_landing_setup,
+    read_transient_setup,
+)
+from drake_landing.campaign.task import case_file
+from drake_landing.parts.stress_rows import Extremes, StressRows, starts
+from drake_landing.transient.response import SCHEMES
+from fem.arrays import Float64
+from fem.files.aside import written_aside
+from fem.response.direct import direct_transient
+from fem.response.observation import Chunk
+from fem.response.system import sampled_load
+
+
+@dataclass(frozen=True, kw_only=True)
+class BlockTask:
+    """Landings of one airframe, to be integrated together.
+
+    Attributes:
+        numbers: of the cases.
+        ends: s, where each may end.
+        landing, transient: setups of the airframe.
+        folder: of the case files.
+        scheme: a key of `SCHEMES`.
+        keys: of the results, case by case.
+    """
+
+    numbers: tuple[int, ...]
+    ends: tuple[float, ...]
+    landing: SetupFile
+    transient: SetupFile
+    folder: Path
+    scheme: str
+    keys: tuple[str, ...]
+
+
+def confirmed_file(folder: Path, number: int) -> Path:
+    """Of a case that has its direct transient."""
+    return folder / f"{number:06d}.confirmed.h5"
+
+
+def run_block(task: BlockTask) -> tuple[int, ...]:
+    """Integrates a block; every case leaves a file of its own."""
+    setup = read_landing_setup(task.landing)
+    full = read_transient_setup(task.transient)
+    time, loads = _loads(task)
+    watch = BlockStress(setup.rows, full.operators, setup.steady)
+    _integrate(full, time, loads, watch, task.scheme)
+    for number, key, state in zip(task.numbers, task.keys, watch.states):
+        with (
+            written_aside(confirmed_file(task.folder, number)) as part,
+            h5py.File(part, "w") as file,
+        ):
+            file.attrs.update(case=number, key=key, until=time[-1])
+            found = {
+                "equivalent": (state.equivalent, "Pa"),
+                "high": (state.high, "Pa"),
+                "low": (state.low, "Pa"),
+                "time": (time[state.when], "s"),
+            }
+            for name, (values, units) in found.items():
+                data = file.create_dataset(f"stress/{name}", data=values)
+                data.attrs["units"] = units
+    return task.numbers
+
+
+class BlockStress:
+    """Observer: extremes of the stresses of all elements, every case on its own.
+
+    Args:
+        rows: elements, without maps.
+        operators: their maps, part by part.
+        steady: per part, stresses that each case's add to; None: increments alone.
+    """
+
+    def __init__(
+        self,
+        rows: Sequence[StressRows],
+        operators: Sequence,
+        steady: Sequence[np.ndarray] | None,
+    ) -> None:
+        self._rows, self._operators, self._steady = rows, operators, steady
+        self.states: list[Extremes] = []
+
+    def begin(self, time: Float64, cases: int, size: int) -> None:
+        """Start afresh; see `Observer`."""
+        elements = sum(r.size for r in self._rows)
+        self.states = [Extremes.zero(elements) for _ in range(cases)]
+
+    def observe(self, chunk: Chunk) -> None:
+        """Take the extremes of a chunk; see `Observer`."""
+        at = starts(self._rows)
+        for i, (rows, operator) in enumerate(zip(self._rows, self._operators)):
+            linear = chunk.get("displacement", operator)  # (t, c, rows)
+            whole = slice(0, rows.size)
+            for case, state in enumerate(self.states):
+                sigma = np.ascontiguousarray(linear[:, case].T)
+                if self._steady is not None:
+                    sigma += self._steady[i][:, None]
+                rows.extremes(sigma, whole, chunk.first, state, int(at[i]))
+
+    def memory_bytes(self, times: int, cases: int, size: int) -> int:
+        """Bytes of the extremes."""
+        return 28 * cases * sum(r.size for r in self._rows)
+
+
+def _loads(task: BlockTask) -> tuple[Float64, list[Float64]]:
+    """The grid up to the last end, and the loads (t, 6 k) of each case on it."""
+    loads, grid = [], None
+    for number in task.numbers:
+        with h5py.File(case_file(task.folder, number)) as file:
+            time = np.asarray(file["loads/time"])
+            load = np.asarray(file["loads/load"])
+        loads.append(load.reshape(len(time), -1))
+        grid = time if grid is None or len(time) > len(grid) else grid
+    assert grid is not None
+    count = min(int(np.searchsorted(grid, max(task.ends))) + 1, len(grid))
+    grid = grid[: max(count, 2)]
+    return grid, [_held(load, len(grid)) for load in loads]
+
+
+def _held(load: Float64, count: int) -> Float64:
+    """Of that many instants; a last value is held."""
+    if len(load) >= count:
+        return load[:count]
+    return np.concatenate([load, np.repeat(load[-1:], count - len(load), axis=0)])
+
+
+def _integrate(
+    full: TransientSetup,
+    time: Float64,
+    loads: Sequence[Float64],
+    watch: BlockStress,
+    scheme: str,
+) -> None:
+    step = float(time[-1] - time[0]) / (len(time) - 1)
+    # The integrator looks ahead of the last step.
+    beyond = np.append(time, time[-1] + step * np.array([1.0, 2.0]))
+    factors = np.stack(
+        [np.concatenate([p, np.repeat(p[-1:], 2, axis=0)]).T for p in loads]
+    )
+    direct_transient(
+        full.stiffness,
+        full.mass,
+        full.damping,
+        steps=[(len(time) - 1, step)],
+        load=sampled_load(full.pattern, beyond, factors),
+        observers=[watch],
+        scheme=SCHEMES[scheme](),
+        threads=1,
+    )

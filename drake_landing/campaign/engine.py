@@ -1,0 +1,140 @@
+"""Tasks on a Dask cluster: the local machine's processes, or any scheduler's workers.
+
+A task leaves its result in files; the engine only counts. A worker that dies, or a
+scheduler that goes away, costs the tasks that were under way: these are submitted again
+where workers are left, or by the next run, which finds the files of all others.
+"""
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from drake_landing.progress import Reporter
+from fem.errors import InputError
+
+T = TypeVar("T")
+
+_THREADS = {
+    name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+}
+_RETRIES = 2  # of a task whose worker was lost
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pool:
+    """Where tasks run.
+
+    Attributes:
+        scheduler: `local`, `here` (this process, one after another), or the address
+            of a Dask scheduler, tcp://host:8786.
+        workers: processes of a local cluster; None: one per core.
+        memory_gb: limit of each, beyond which it is restarted; 0: none.
+    """
+
+    scheduler: str = "local"
+    workers: int | None = None
+    memory_gb: float = 0.0
+
+
+@contextmanager
+def engine(pool: Pool) -> Iterator["Engine"]:
+    """A cluster for as long as it is needed.
+
+    Raises:
+        InputError: no scheduler answers at the address.
+    """
+    if pool.scheduler == "here":
+        yield Engine(None)
+        return
+    # Heavy, and needed by campaigns only.
+    from dask.config import set as configured
+    from distributed import Client, LocalCluster
+
+    quiet = {
+        "distributed.worker.memory.target": False,
+        "distributed.worker.memory.spill": False,
+        "distributed.nanny.pre-spawn-environ": {**_THREADS, "MALLOC_ARENA_MAX": "2"},
+        "distributed.logging.distributed": "error",
+    }
+    with configured(quiet):
+        if pool.scheduler == "local":
+            cluster = LocalCluster(
+                n_workers=pool.workers or os.cpu_count() or 1,
+                threads_per_worker=1,
+                processes=True,
+                memory_limit=int(pool.memory_gb * 1e9) or 0,
+                dashboard_address=None,
+                silence_logs=50,
+            )
+            with cluster, Client(cluster) as client:
+                yield Engine(client)
+            return
+        try:
+            client = Client(pool.scheduler, timeout=20)
+        except (OSError, ValueError) as error:
+            raise InputError(
+                f"--scheduler: found {pool.scheduler}, expected local, or the address "
+                f"of a Dask scheduler that answers ({error})"
+            ) from None
+        with client:
+            yield Engine(client)
+
+
+class Engine:
+    """Runs tasks and hands over what they return, in the order of completion.
+
+    Args:
+        client: of a cluster; None: this process.
+    """
+
+    def __init__(self, client: Any) -> None:
+        self._client = client
+
+    def run(
+        self,
+        function: Callable[[T], Any],
+        tasks: Sequence[T],
+        lost: Callable[[T, str], None],
+        progress: Reporter,
+    ) -> Iterator[Any]:
+        """Results of all tasks.
+
+        Args:
+            function: of a module, no closure.
+            tasks: picklable.
+            lost: hears of a task that no worker survived, and why.
+            progress: told the share that is done.
+        """
+        total = len(tasks)
+        for done, result in enumerate(self._results(function, tasks, lost), start=1):
+            progress.share(done / total, f"{done} of {total}")
+            if result is not None:
+                yield result
+
+    def _results(
+        self,
+        function: Callable[[T], Any],
+        tasks: Sequence[T],
+        lost: Callable[[T, str], None],
+    ) -> Iterator[Any]:
+        if self._client is None:
+            yield from map(function, tasks)
+            return
+        from distributed import as_completed
+
+        futures = {
+            self._client.submit(function, task, pure=False, retries=_RETRIES): task
+            for task in tasks
+        }
+        for future in as_completed(list(futures)):
+            if future.status == "finished":
+                yield future.result()
+            else:
+                error = future.exception() if future.status == "error" else None
+                lost(
+                    futures[future], f"no worker survived it: {error or future.status}"
+                )
+                yield None
+            future.release()

@@ -1,0 +1,237 @@
+"""A campaign file: a base case, what varies, what is confirmed; validated.
+
+    name: hard_landings
+    base: case.yaml
+    axes:
+      scenario.preset: [two_point, tail_down]
+      scenario.sink_rate: {from: 1.0, to: 3.0, count: 5}
+      scenario.pitch: {distribution: norm, values: {loc: 3, scale: 1}, low: 0, high: 8}
+      gears.main_*.shock_absorber.precharge_force: {scale: [0.9, 1.0, 1.1]}
+    samples: 20
+
+Axes with values are combined with each other; those with a distribution are sampled
+together (latin hypercube), `samples` times for every combination.
+"""
+
+from pathlib import Path
+from typing import Annotated, Any, Self
+
+import scipy.stats
+from pydantic import (
+    Discriminator,
+    Field,
+    PrivateAttr,
+    Tag,
+    ValidationInfo,
+    field_validator,
+    model_validator,
+)
+
+from drake_landing.case.places import Places
+from drake_landing.case.section import Section, number
+from fem.errors import nearest
+
+Value = bool | int | float | str
+_PATH = r"^[A-Za-z_][\w*]*(\.[\w*-]+)+$"
+
+
+class Range(Section):
+    """Evenly spaced values, both ends among them."""
+
+    start: float = Field(alias="from", description="first value")
+    stop: float = Field(alias="to", description="last value")
+    count: int = Field(ge=1, le=10_000, description="number of values")
+
+
+class Scale(Section):
+    """Factors on the values of the base case."""
+
+    scale: tuple[float, ...] = Field(min_length=1, description="factors")
+
+
+class Distribution(Section):
+    """A distribution of scipy.stats, truncated."""
+
+    distribution: str = Field(description="name in scipy.stats, e.g. norm, weibull_min")
+    values: dict[str, float] = Field(
+        default={}, description="its parameters by name: loc, scale, shapes (c, a, b)"
+    )
+    low: float | None = Field(default=None, description="values below are cut off")
+    high: float | None = Field(default=None, description="values above are cut off")
+    source: str = Field(default="", description="where the figures come from")
+
+    @field_validator("distribution")
+    @classmethod
+    def _known(cls, name: str) -> str:
+        known = [
+            n
+            for n in dir(scipy.stats)
+            if isinstance(getattr(scipy.stats, n), scipy.stats.rv_continuous)
+        ]
+        if name not in known:
+            raise ValueError(
+                f"found '{name}', expected a continuous distribution of scipy.stats"
+                + nearest(name, known)
+            )
+        return name
+
+    @model_validator(mode="after")
+    def _frozen(self) -> Self:
+        try:
+            law = getattr(scipy.stats, self.distribution)(**self.values)
+            inside = law.cdf(_or(self.high, float("inf"))) - law.cdf(
+                _or(self.low, float("-inf"))
+            )
+        except TypeError as error:
+            raise ValueError(f"values: {error}") from None
+        if not inside > 0.0:
+            raise ValueError(
+                "nothing of the distribution lies between low and high, or its "
+                "parameters are out of range"
+            )
+        return self
+
+
+class Table(Section):
+    """Rows of measured values that belong together, drawn at random."""
+
+    file: Path = Field(description="CSV with a header, relative to the campaign file")
+    columns: dict[str, str] = Field(
+        min_length=1, description="column of the file -> field of the case"
+    )
+    source: str = Field(description="where the rows come from")
+
+    @field_validator("file", mode="after")
+    @classmethod
+    def _there(cls, file: Path, info: ValidationInfo) -> Path:
+        folder = (info.context or {}).get("folder")
+        path = Path(folder, file) if folder else file
+        if not path.is_file():
+            raise ValueError(f"found {path}, no such file")
+        return path
+
+
+def _or(value: float | None, other: float) -> float:
+    return other if value is None else value
+
+
+def _kind(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return "(values)"
+    if isinstance(value, dict):
+        for key, kind in (("scale", "(scale)"), ("distribution", "(distribution)")):
+            if key in value:
+                return kind
+        return "(range)"
+    names = {Range: "(range)", Scale: "(scale)", Distribution: "(distribution)"}
+    return names.get(type(value), "(values)")
+
+
+Axis = Annotated[
+    Annotated[tuple[Value, ...], Field(min_length=1), Tag("(values)")]
+    | Annotated[Range, Tag("(range)")]
+    | Annotated[Scale, Tag("(scale)")]
+    | Annotated[Distribution, Tag("(distribution)")],
+    Discriminator(_kind),
+]
+
+
+class Confirm(Section):
+    """The direct transient of chosen landings."""
+
+    sample: int = Field(
+        default=8,
+        ge=0,
+        description="landings drawn at random: their direct transients measure the "
+        "error of the screening",
+    )
+    most: int = Field(
+        default=64, ge=0, description="landings confirmed beside the sample, at most"
+    )
+    block: int = Field(
+        default=32, ge=1, le=256, description="landings in one transient"
+    )
+    confidence: float = number(
+        "of the screening error that decides what is confirmed", "1", 0.99, gt=0, lt=1
+    )
+    tail: float = number(
+        "how long a transient goes on after the last screened peak", "s", 0.05, ge=0
+    )
+
+
+class Fatigue(Section):
+    """Miner damage by an S-N curve of the user's own, N = (reference / range)^slope."""
+
+    reference_stress: float = number("stress range at one cycle to failure", "Pa", gt=0)
+    slope: float = number("of the S-N curve, log N over log range", "1", gt=0, le=50)
+    endurance: float = number("ranges below do no damage", "Pa", 0.0, ge=0)
+    source: str = Field(description="where the curve comes from")
+
+
+class Campaign(Section):
+    """Many landings of one aircraft."""
+
+    name: str = Field(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$",
+        description="names the campaign and its folder: letters, digits, . _ -",
+    )
+    title: str = Field(default="", description="one line for the page")
+    base: Path = Field(description="case file, relative to the campaign file")
+    axes: dict[Annotated[str, Field(pattern=_PATH)], Axis] = Field(
+        default={},
+        description="field of the case, with * for any name in a list -> its values",
+    )
+    table: Table | None = Field(
+        default=None, description="rows of measured touchdowns, drawn at random"
+    )
+    samples: int = Field(
+        default=0,
+        ge=0,
+        le=1_000_000,
+        description="of the axes with a distribution and of the table, for each "
+        "combination of the others",
+    )
+    seed: int = Field(default=0, ge=0, description="of all that is drawn at random")
+    confirm: Confirm = Confirm()
+    fatigue: Fatigue | None = Field(default=None, description="damage per component")
+    elements_per_group: int = Field(
+        default=3,
+        ge=1,
+        le=100,
+        description="elements of a component whose histories are counted for fatigue",
+    )
+    _places: Places = PrivateAttr(default=Places())
+
+    @property
+    def places(self) -> Places:
+        """Where its fields were written."""
+        return self._places
+
+    def written_at(self, places: Places) -> Self:
+        """The same campaign, with the places of its fields."""
+        campaign = self.model_copy()
+        campaign._places = places
+        return campaign
+
+    @field_validator("base", mode="after")
+    @classmethod
+    def _there(cls, base: Path, info: ValidationInfo) -> Path:
+        folder = (info.context or {}).get("folder")
+        path = Path(folder, base) if folder else base
+        if not path.is_file():
+            raise ValueError(f"found {path}, no such case file")
+        return path
+
+    @model_validator(mode="after")
+    def _sampled(self) -> Self:
+        drawn = [p for p, a in self.axes.items() if isinstance(a, Distribution)]
+        if (drawn or self.table) and not self.samples:
+            what = ", ".join([*drawn, *(["the table"] if self.table else [])])
+            raise ValueError(f"samples: found 0, expected how often to draw {what}")
+        if self.samples and not (drawn or self.table):
+            raise ValueError(
+                f"samples: found {self.samples}, but no axis has a distribution"
+            )
+        if not self.axes and self.table is None:
+            raise ValueError("axes: found none, expected at least one, or a table")
+        return self

@@ -1,0 +1,254 @@
+"""What all landings of one airframe share, prepared once and read by every worker.
+
+A campaign may have several airframes: mass cases, other decks, other selections of
+modes. Each has a setup for its landings and the screening, and a second one, larger,
+for direct transients. Both are files; workers read them when they first need them and
+verify the digest that the campaign gave them.
+"""
+
+import hashlib
+import pickle
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import scipy.sparse as sp
+
+from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.body import AirframeModel, load_airframe
+from drake_landing.cache import Cache, content_key, source_key
+from drake_landing.campaign.basis import ScreeningBasis, screening_basis
+from drake_landing.campaign.screening import steady_rows
+from drake_landing.case.schema import Case
+from drake_landing.parts.cuts import BeamCuts
+from drake_landing.parts.slices import balanced
+from drake_landing.parts.stress import StressPart
+from drake_landing.parts.stress_rows import StressRows, stress_rows
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.full_response import parts_watch
+from drake_landing.progress import Reporter
+from fem.algebra.damping import Damping
+from fem.arrays import Float64, Int64
+from fem.files.aside import written_aside
+from systems.airframe.modal_body import ModalBody
+
+
+@dataclass(frozen=True, kw_only=True)
+class LandingSetup:
+    """For landings and their screening.
+
+    Attributes:
+        body: the modal body, axes A.
+        node_id: (k,) nodes that loads act on.
+        basis: of the screening.
+        rows: elements with stresses, without their maps.
+        steady: per part, stresses of steady flight; None: not known.
+        cuts: beam -> its cuts, without their maps.
+        elements: id, card, component, material, x, y, z, allowed of each, in the order
+            of the rows.
+        highest_hz: of the modes.
+    """
+
+    body: ModalBody = field(repr=False)
+    node_id: Int64
+    basis: ScreeningBasis = field(repr=False)
+    rows: tuple[StressRows, ...] = field(repr=False)
+    steady: list[np.ndarray] | None = field(repr=False)
+    cuts: Mapping[str, BeamCuts] = field(repr=False)
+    elements: pd.DataFrame = field(repr=False)
+    highest_hz: float
+
+
+@dataclass(frozen=True, kw_only=True)
+class TransientSetup:
+    """For direct transients of the full model.
+
+    Attributes:
+        stiffness, mass, damping: of the free set.
+        pattern: (f, 6 k) loads on the nodes.
+        operators: per part of the rows.
+    """
+
+    stiffness: sp.csr_matrix = field(repr=False)
+    mass: sp.csr_matrix = field(repr=False)
+    damping: Damping = field(repr=False)
+    pattern: sp.csr_matrix = field(repr=False)
+    operators: tuple[sp.csr_matrix, ...] = field(repr=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SetupFile:
+    """A setup on disk.
+
+    Attributes:
+        path: of the file.
+        digest: of its content.
+    """
+
+    path: Path
+    digest: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class Prepared:
+    """An airframe of the campaign, ready.
+
+    Attributes:
+        key: of everything that landings and screening depend on beside the case.
+        landing, transient: its files.
+        aircraft, airframe: as the process made them.
+        setup: what the first file holds.
+        ultimate_factor: of the case's margins.
+        shape: (f, n + 6 k) displacements by the amplitudes of the screening.
+    """
+
+    key: str
+    landing: SetupFile
+    transient: SetupFile
+    aircraft: Aircraft = field(repr=False)
+    airframe: AirframeModel = field(repr=False)
+    setup: LandingSetup = field(repr=False)
+    ultimate_factor: float
+    shape: Float64 = field(repr=False)
+
+
+def airframe_key(case: Case) -> str:
+    """Of what decides about the airframe: cases with one key share a setup."""
+    gears = () if isinstance(case.gears, str) else case.gears
+    held = [sorted(g.attachments.values()) for g in gears]
+    return content_key(
+        case.airframe.model_dump_json(), case.parts.model_dump_json(), held
+    )
+
+
+def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
+    """Deck, modes, static answers, stress modes; written to the folder.
+
+    Args:
+        case: the first of those that share the airframe.
+        folder: for the files of the setup.
+        progress: told the stages.
+
+    Raises:
+        InputError: deck, gears or places are at fault.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with case.places.located():
+        aircraft = prepare_aircraft(case, folder)
+        progress.stage(f"{aircraft.name}: deck, matrices, modes")
+        structure = aircraft.structure()
+        airframe = load_airframe(
+            case.airframe,
+            aircraft,
+            progress,
+            case.scenario,
+            Cache.of_user(),
+            structure,
+        )
+    nodes = np.unique([*aircraft.attachment_nodes, *aircraft.lift_nodes])
+    progress.stage(f"{aircraft.name}: static answers, stress modes, section loads")
+    steady = None
+    if aircraft.steady_load is not None:
+        flight = balanced(structure, aircraft.steady_load(structure))
+        steady = flight.displacement[:, 0]
+    watch = parts_watch(case, aircraft, structure, nodes, steady)
+    rows, cuts = stress_rows(watch.stresses), watch.cuts
+    answers = screening_basis(structure, airframe.basis, nodes, rows, cuts)
+    setup = LandingSetup(
+        body=airframe.body,
+        node_id=nodes,
+        basis=_slim(answers),
+        rows=tuple(map(_without_map, rows)),
+        steady=steady_rows(rows, steady),
+        cuts={name: _without_maps(c) for name, c in cuts.items()},
+        elements=watch.rows,
+        highest_hz=airframe.highest_hz,
+    )
+    transient = TransientSetup(
+        stiffness=structure.stiffness,
+        mass=structure.mass,
+        damping=structure.damping,
+        pattern=sp.csr_matrix(structure.operator(nodes, frame="basic").T),
+        operators=tuple(r.operator for r in rows),
+    )
+    key = content_key(
+        source_key("fem", "systems", "drake_landing"),
+        *(structure.stiffness, structure.mass, airframe.basis.shape, nodes),
+        [*setup.basis.stress, *setup.basis.sections.values()],
+        None if steady is None else steady,
+    )
+    return Prepared(
+        key=key,
+        landing=_write(folder / f"landing-{key}.setup", setup),
+        transient=_write(folder / f"transient-{key}.setup", transient),
+        aircraft=aircraft,
+        airframe=airframe,
+        setup=setup,
+        ultimate_factor=case.parts.ultimate_factor,
+        shape=answers.shape,
+    )
+
+
+def read_landing_setup(file: SetupFile) -> LandingSetup:
+    """Of a worker, which keeps the last two that it read.
+
+    Raises:
+        ValueError: the file is not the one that the campaign wrote.
+    """
+    found = _read(str(file.path), file.digest)
+    assert isinstance(found, LandingSetup)
+    return found
+
+
+def read_transient_setup(file: SetupFile) -> TransientSetup:
+    """See `read_landing_setup`."""
+    found = _read(str(file.path), file.digest)
+    assert isinstance(found, TransientSetup)
+    return found
+
+
+def _slim(basis: ScreeningBasis) -> ScreeningBasis:
+    """Without the displacements, which workers need not."""
+    return ScreeningBasis(
+        node_id=basis.node_id,
+        modes=basis.modes,
+        shape=np.zeros((0, basis.shape.shape[1])),
+        stress=basis.stress,
+        sections=basis.sections,
+    )
+
+
+def _without_map(rows: StressRows) -> StressRows:
+    nothing = sp.csr_matrix((0, 0))
+    part = StressPart(id=rows.part.id, operator=nothing, pieces=rows.part.pieces)
+    return StressRows(
+        kind=rows.kind,
+        part=part,
+        isotropic=rows.isotropic,
+        per_element=rows.per_element,
+        operator=nothing,
+    )
+
+
+def _without_maps(cuts: BeamCuts) -> BeamCuts:
+    nothing = np.zeros(0, np.int64)
+    return replace(cuts, of_acceleration=sp.csr_matrix((0, 0)), strip=nothing)
+
+
+def _write(path: Path, value: object) -> SetupFile:
+    data = pickle.dumps(value, protocol=5)
+    digest = hashlib.blake2b(data, digest_size=16).hexdigest()
+    with written_aside(path) as part:
+        part.write_bytes(data)
+    return SetupFile(path=path.resolve(), digest=digest)
+
+
+@lru_cache(maxsize=2)
+def _read(path: str, digest: str) -> object:
+    data = Path(path).read_bytes()
+    if hashlib.blake2b(data, digest_size=16).hexdigest() != digest:
+        raise ValueError(f"{path}: is not the setup that the campaign wrote")
+    return pickle.loads(data)  # ours: the digest came with the task

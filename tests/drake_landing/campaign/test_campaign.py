@@ -1,0 +1,163 @@
+"""A campaign of a beam aircraft: screening, confirmation, resume, failures, decks."""
+
+import shutil
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pandas as pd
+import pytest
+
+from drake_landing.campaign.cases import load_campaign
+from drake_landing.campaign.confirm import confirmed_file
+from drake_landing.campaign.critical_decks import write_critical_decks
+from drake_landing.campaign.engine import Pool
+from drake_landing.campaign.run import (
+    CampaignResult,
+    expand,
+    failure_message,
+    run_campaign,
+)
+from drake_landing.campaign.task import case_file
+from drake_landing.cli import app
+from fem import read_deck, run_deck
+from fem.errors import InputError
+
+HERE = Path(__file__).parents[1]
+CAMPAIGN = """\
+name: tiny_campaign
+base: case.yaml
+axes:
+  scenario.sink_rate: [0.6, 1.2]
+  scenario.pitch: {distribution: norm, values: {loc: 1, scale: 1}, low: 0, high: 3}
+samples: 2
+confirm: {sample: 2, most: 1}
+"""
+_ALL = "select: all"
+
+
+def _write(folder: Path, text: str = CAMPAIGN) -> Path:
+    shutil.copy(HERE / "tiny_aircraft.bdf", folder)
+    case = (HERE / "tiny_case.yaml").read_text().replace("select: count 6", _ALL)
+    case = case.replace("duration: 0.4", "duration: 0.12, slow_modes_above: 150")
+    (folder / "case.yaml").write_text(case)
+    path = folder / "campaign.yaml"
+    path.write_text(text)
+    return path
+
+
+@pytest.fixture(scope="module")
+def result(tmp_path_factory: pytest.TempPathFactory) -> CampaignResult:
+    folder = tmp_path_factory.mktemp("campaign")
+    campaign = load_campaign(_write(folder))
+    return run_campaign(campaign, folder / "out", Pool(scheduler="here"))
+
+
+def test_all_landings_are_done(result: CampaignResult) -> None:
+    assert result.flown == [0, 1, 2, 3]
+    cases = pd.read_parquet(result.folder / "tables" / "cases.parquet")
+    assert cases["confirmed"].sum() == len({*result.sample, *result.critical}) >= 2
+    vertical = cases["gear:main_left.tyre_vertical"].to_numpy()
+    assert vertical[2:].min() > vertical[:2].max()  # twice the sink rate
+
+
+def test_screening_with_all_modes_is_the_transient(result: CampaignResult) -> None:
+    """What is left is the transient's step, and the modes that the landing slows."""
+    assert result.errors["p99"].max() < 0.03
+    assert result.errors["landings"].eq(2).all()
+
+
+def test_static_answers_carry_what_modes_lack(result: CampaignResult) -> None:
+    """Without them the stresses of a landing are far off at the gears."""
+    number = result.sample[0]
+    own = next(iter(result.prepared.values()))
+    with h5py.File(case_file(result.cases, number)) as file:
+        load = np.asarray(file["loads/load"])
+        exact = np.asarray(file["stress/equivalent"])
+    columns = own.setup.basis.stress[0][:, own.setup.basis.modes :]
+    assert np.abs(columns).max() > 0.0
+    assert np.abs(load).max() > 0.0
+    assert exact.max() > 0.0
+
+
+def test_envelope_holds_every_landing(result: CampaignResult) -> None:
+    table = pd.read_parquet(result.folder / "tables" / "stress.parquet")
+    for number in result.flown:
+        path = confirmed_file(result.cases, number)
+        path = path if path.is_file() else case_file(result.cases, number)
+        with h5py.File(path) as file:
+            own = np.asarray(file["stress/equivalent"], float)
+        # Tables are sorted by element, files stand in the order of the setup.
+        elements = next(iter(result.prepared.values())).setup.elements["id"]
+        by_id = pd.Series(own, index=elements).sort_index().to_numpy()
+        assert (table.equivalent.to_numpy() >= by_id * (1 - 1e-6)).all()
+
+
+def test_resume_computes_nothing_and_changes_nothing(result: CampaignResult) -> None:
+    files = sorted(result.cases.glob("*.h5"))
+    before = {f: f.stat().st_mtime_ns for f in files}
+    tables = {p: p.read_bytes() for p in (result.folder / "tables").glob("*.parquet")}
+    run_campaign(result.campaign, result.folder, Pool(scheduler="here"))
+    assert {f: f.stat().st_mtime_ns for f in files} == before
+    assert {p: p.read_bytes() for p in tables} == tables
+
+
+def test_static_decks_reproduce_the_stresses(result: CampaignResult) -> None:
+    """K u of an instant, solved by SOL 101, gives the screened stresses again."""
+    (deck,) = write_critical_decks(result)
+    instants = pd.read_csv(deck.parent / "instants.csv")
+    path = run_deck(read_deck(deck), deck.parent / "fem")
+    own = next(iter(result.prepared.values()))
+    with h5py.File(path) as file:
+        for row in instants.to_dict("records"):
+            group = file[f"static/{row['subcase']}/element_stress/CBAR"]
+            columns = list(group.attrs["columns"])
+            value = np.asarray(group["value"])
+            high = value[:, [k for k, n in enumerate(columns) if "smax" in n]]
+            low = value[:, [k for k, n in enumerate(columns) if "smin" in n]]
+            found = np.maximum(high.max(axis=1), -low.min(axis=1))
+            with h5py.File(case_file(result.cases, row["case"])) as case:
+                time = np.asarray(case["loads/time"])
+                at = int(np.abs(time - row["time"]).argmin())
+                load = np.asarray(case["loads/load"][at]).ravel()
+                q = np.asarray(case["loads/amplitudes"][:, at], float)
+            rows = own.setup.basis.stress[0].astype(float) @ np.concatenate([q, load])
+            expected = np.abs(rows.reshape(len(found), -1)).max(axis=1)
+            # Stress modes are kept in single precision.
+            assert found == pytest.approx(expected, rel=1e-4, abs=1e-4 * found.max())
+
+
+def test_a_case_that_cannot_be_flown_does_not_stop_the_others(tmp_path: Path) -> None:
+    """The gears have no brakes: one of the two cases asks for them."""
+    path = _write(
+        tmp_path,
+        "name: brakes\nbase: case.yaml\naxes:\n  scenario.braking: [0.0, 1.0]\n"
+        "confirm: {sample: 0, most: 0}\n",
+    )
+    case = path.with_name("case.yaml")
+    case.write_text(case.read_text().replace("duration: 0.12", "duration: 0.02"))
+    found = run_campaign(load_campaign(path), tmp_path / "out", Pool(scheduler="here"))
+    assert found.flown == [0]
+    assert found.failed == [1]
+    assert "no gear has a brake" in failure_message(found, 1)
+    page = (tmp_path / "out" / "campaign.html").read_text()
+    assert "no gear has a brake" in page
+    assert "Not measured" in page
+
+
+def test_every_problem_of_every_case_is_named_once(tmp_path: Path) -> None:
+    text = CAMPAIGN.replace(
+        "scenario.sink_rate: [0.6, 1.2]",
+        "scenario.sink_rate: [0.6, -1.0]\n  gears.mian_left.tyre.stiffness: [1.0]",
+    )
+    with pytest.raises(InputError) as error:
+        expand(load_campaign(_write(tmp_path, text)))
+    said = "\n".join(error.value.problems)
+    assert "campaign.yaml:" in said
+    assert "did you mean 'main_left'" in said
+
+
+def test_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = _write(tmp_path)
+    app(["check", str(path)], standalone_mode=False)
+    assert "4 landings" in capsys.readouterr().out
