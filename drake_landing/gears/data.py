@@ -76,6 +76,8 @@ class LandingGear(Data):
         default={},
         description="name of a wheel -> what its tyre has otherwise than `tyre`, e.g. "
         "main_left_right: {inflation: 0}",
+        # As it is written: only what differs.
+        json_schema_extra={"additionalProperties": {"type": "object"}},
     )
     brake: Brake | None = Field(default=None, description="of every wheel; or none")
     shock_absorber: ShockAbsorber

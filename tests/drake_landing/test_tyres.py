@@ -148,6 +148,11 @@ def test_tyre_of_an_unknown_wheel_is_named():
         parse_case(text, file="tiny.yaml", folder=HERE)
 
 
+def test_schema_lets_a_single_tyre_say_only_what_differs():
+    field = type(aircraft_gears()[0]).model_json_schema()["properties"]["tyres"]
+    assert field["additionalProperties"] == {"type": "object"}
+
+
 def test_flat_tyre_survives_a_round_trip_of_the_case():
     gear = changed(
         aircraft_gears()[1],
