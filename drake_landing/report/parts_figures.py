@@ -179,6 +179,7 @@ def equipment(
         motion, response = grid[0]
         for color, name in zip((TRANSIENT, MULTIBODY, *SERIES), histories):
             values, label = histories[name][axis], name.split(",")[0]
+            label = label.replace("_", " ")
             curve(motion, values.index, values, color, label)
             curve(response, frequency, spectra[name], color)
         finish(motion, f"{title}: acceleration, {axis}", "m/s²")

@@ -103,6 +103,7 @@ def _stresses(
     text = (
         "Direct transient, all elements at all steps. Equivalent: von Mises of the "
         "sheet itself, the larger of both fibres; of bars the largest direct stress. "
+        f"Places are those of the deck ({deck_axes(result.airframe.R_AB)}). "
     )
     if "margin" not in unknown:
         text += (
