@@ -120,7 +120,7 @@ def loads(trials: dict[str, Trial], static: dict[str, float]) -> Iterator[str]:
     """Table of peaks; of symmetric conditions one main gear."""
     yield (
         "| preset | gear | vertical, kN | over static | drag, kN | over vertical | "
-        "spring-back, kN | side, kN | over vertical | stroke, m | stop, g |"
+        "tyres forward, kN | side, kN | over vertical | stroke, m | stop, g |"
     )
     yield "|---|---|---|---|---|---|---|---|---|---|---|"
     for name, trial in trials.items():
@@ -144,7 +144,7 @@ def _row(name: str, preset: Preset, gear: str, peaks: pd.Series, static: float) 
         f"{peaks['vertical'] / static:.2f}",
         f"{peaks['drag'] / 1e3:.0f}",
         drag,
-        f"{abs(peaks['spring_back']) / 1e3:.0f}",
+        f"{peaks['tyre_forward'] / 1e3:.0f}",
         f"{abs(peaks['side']) / 1e3:.0f}",
         side.removeprefix("-"),
         f"{peaks['stroke']:.3f}",

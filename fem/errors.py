@@ -4,8 +4,13 @@ An `InputError` carries every problem that was found, not only the first, so tha
 deck can be repaired in one pass. Command lines print it and exit with status 2.
 """
 
+import re
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
+
+_FEW = 3  # notices of one kind that are told one by one
+_PLACES = re.compile(r"[^\s(]+:\d+")
+_NUMBERS = re.compile(r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
 
 
 class InputError(ValueError):
@@ -22,7 +27,30 @@ class InputError(ValueError):
         super().__init__("\n".join(self.problems))
 
 
-def nearest(name: str, known: Sequence[str]) -> str:
-    """The clause `"; did you mean 'x'?"` for a misspelt name, or the empty string."""
-    matches = get_close_matches(name, known, n=1)
+def nearest(name: str, known: Sequence[str], cutoff: float = 0.6) -> str:
+    """The clause `"; did you mean 'x'?"` for a misspelt name, or the empty string.
+
+    Args:
+        name: as it was found.
+        known: what it may be.
+        cutoff: how alike they must be, 0 to 1.
+    """
+    matches = get_close_matches(name, known, n=1, cutoff=cutoff)
     return f"; did you mean '{matches[0]}'?" if matches else ""
+
+
+def by_kind(notices: Iterable[str]) -> list[str]:
+    """Notices with those of one kind in one line, in the order of the first of each.
+
+    Of one kind are texts that differ in numbers, or in files and lines, alone.
+    """
+    kinds: dict[str, list[str]] = {}
+    for text in dict.fromkeys(notices):
+        kinds.setdefault(_NUMBERS.sub("#", _PLACES.sub("@", text)), []).append(text)
+    lines = []
+    for texts in kinds.values():
+        if len(texts) <= _FEW:
+            lines += texts
+        else:
+            lines.append(f"{texts[0]} (and {len(texts) - 1} more of this kind)")
+    return lines

@@ -179,6 +179,10 @@ def _by_name(loc: Loc, data: Any) -> Iterator[str]:
         yield str(name if named else step)
 
 
+# Keys that are less alike than this are no misspelling of each other.
+_ALIKE = 0.7
+
+
 def _explain(
     error: dict[str, Any],
     models: list[type[BaseModel]],
@@ -188,7 +192,7 @@ def _explain(
     meaning = f" ({field.description})" if field and field.description else ""
     if error["type"] == "extra_forbidden":
         known = sorted({name for model in models for name in model.model_fields})
-        clause = nearest(str(loc[-1]), known)
+        clause = nearest(str(loc[-1]), known, _ALIKE)
         return "unknown key" + (clause or f"; known are {', '.join(known)}")
     if error["type"] == "missing":
         return f"missing{meaning}"

@@ -21,6 +21,8 @@ from drake_landing.case.section import Section, number
 from systems.runway.roughness import ISO_8608
 from systems.runway.runway_profile import FOOT, MeasuredProfile, measured_tracks
 
+_RESERVE_SINK_RATE = 3.66  # m/s, 14 CFR 25.723(b)
+
 
 class Lift(Section):
     """Gravity acts, and nodes of the wing carry the aircraft."""
@@ -321,6 +323,18 @@ class Scenario(Section):
                 "its gears let it, expected 0"
             )
         return self
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What is odd; begins with the field."""
+        if self.start != "touchdown" or self.sink_rate <= _RESERVE_SINK_RATE:
+            return ()
+        return (
+            f"scenario.sink_rate: found {self.sink_rate:g} m/s, more than the "
+            f"{_RESERVE_SINK_RATE:g} m/s (12 ft/s) of the reserve energy drop of "
+            f"25.723(b); {self.sink_rate:g} ft/s would be "
+            f"{0.3048 * self.sink_rate:.3g} m/s",
+        )
 
     @property
     def preset_data(self) -> Preset | None:

@@ -73,26 +73,32 @@ def audit(landing: LandingDiagram, context: Context, scenario: Scenario) -> Audi
 def gear_loads(landing: LandingDiagram, context: Context) -> pd.DataFrame:
     """Peaks of each gear over a run, index gear.
 
-    Columns: vertical, drag, spring_back, side (N, sums over the wheels; drag aft,
-    spring_back the largest forward load, side of largest magnitude), drag_ratio and
+    Columns: vertical, drag, tyre_forward, side (N, sums over the wheels; drag aft,
+    tyre_forward the largest force of the runway forward, side of largest magnitude),
+    spring_back (N, the largest load forward on the airframe at the gear's attachments,
+    increment to the start, by the leg that swings forward again), drag_ratio and
     side_ratio (to the vertical load of the same instant, largest magnitude while the
     gear carries a tenth of its peak), stroke (m), extension (largest magnitude of the
     acceleration of the stroke with all wheels in the air, m/s², by differences: what
     the unsprung parts feel as they reach their stops), time (s, of the vertical peak).
     """
     signals = Signals(landing, context)
+    attachments = [name for gear in landing.gears for name in gear.attachments]
+    loads = signals["attachment.load_in_airframe_axes"].reshape(len(attachments), 6, -1)
     rows = {}
     for gear in landing.gears:
         contact = sum(signals[f"tire_{wheel}.contact"] for wheel in gear.wheel_names)
         vertical, drag, side = contact[1:4]
         stroke, rate = signals[f"strut_{gear.name}.strut"]
+        aft = sum(loads[attachments.index(name), 0] for name in gear.attachments)
         in_air = contact[0] < 0
         loaded = vertical > max(0.1 * vertical.max(), 1.0)
         load = np.where(loaded, vertical, np.inf)
         rows[gear.name] = {
             "vertical": vertical.max(),
             "drag": drag.max(),
-            "spring_back": drag.min(),
+            "tyre_forward": max(-drag.min(), 0.0),
+            "spring_back": max(-(aft - aft[0]).min(), 0.0),
             "side": side[np.abs(side).argmax()],
             "drag_ratio": (drag / load).max(),
             "side_ratio": (side / load)[np.abs(side / load).argmax()],

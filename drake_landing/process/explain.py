@@ -37,6 +37,7 @@ from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import StepError, expected_step_error
 from fem.algebra.linear_solver import factorize
+from fem.errors import by_kind
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
 from systems.tools.compiled import compiled_before
@@ -94,9 +95,10 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
     if step is not None:
         remarks = (*remarks, *step.remarks)
-    notices = (*aircraft.notices, *map(case.places.named, remarks))
-    notices += (*structure.notices, *structure.damping_notices)
-    notices += tuple(stress_point_notices(structure))
+    remarks = (*remarks, *aircraft.scenario.remarks)
+    notices = [*aircraft.notices, *map(case.places.named, remarks)]
+    notices += [*structure.notices, *structure.damping_notices]
+    notices = by_kind([*notices, *stress_point_notices(structure)])
     return "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
 
 
@@ -244,7 +246,8 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
     mass = structure.rigid_mass.total + sum(gear.mass for gear in aircraft.gears)
     energy = 0.5 * mass * s.sink_rate**2
     yield _line("scenario", f"{s.story}; {s.lift_story}")
-    yield _line("", f"{mass:,.1f} kg in all, sink energy {energy / 1e3:.1f} kJ")
+    sinks = f", sink energy {energy / 1e3:.1f} kJ" * (s.start == "touchdown")
+    yield _line("", f"{mass:,.1f} kg in all{sinks}")
 
 
 def _run(

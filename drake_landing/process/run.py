@@ -45,6 +45,7 @@ from drake_landing.results.truncation import Truncation
 from drake_landing.transient.extremes import worst_elements
 from drake_landing.transient.practices import rigid
 from drake_landing.transient.step_error import expected_step_error
+from fem.errors import by_kind
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
 from systems.tools.compiled import compiled_before
@@ -92,6 +93,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     shapes = load_model(structure, aircraft, cache)
     pulses = expected_pulses(structure, case.airframe, aircraft, aircraft.scenario)
     step = expected_step_error(case, aircraft, shapes, pulses)
+    remarks = (*remarks, *step.remarks, *aircraft.scenario.remarks)
     stages.begin("eigenmodes")
     airframe = load_airframe(
         case.airframe,
@@ -146,12 +148,16 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         late=flight.late,
         deck_checked=deck_checked,
         practices=full.practices,
-        notices=(
-            *aircraft.notices,
-            *airframe.notices,
-            *map(case.places.named, (*remarks, *step.remarks)),
-            *fast_mode_notices(airframe.body, case.simulation),
-            *stress_point_notices(structure),
+        notices=tuple(
+            by_kind(
+                [
+                    *aircraft.notices,
+                    *airframe.notices,
+                    *map(case.places.named, remarks),
+                    *fast_mode_notices(airframe.body, case.simulation),
+                    *stress_point_notices(structure),
+                ]
+            )
         ),
         stages=stages,
     )

@@ -131,9 +131,8 @@ def _sections(
     yield Section(
         id="energy",
         title="Energy audit",
-        text="Kinetic, stored and dissipated energy must add up to a constant. The "
-        "sink energy, half the mass times the sink rate squared, is "
-        f"{result.history.figures['sink_energy'] / 1e3:.1f} kJ.",
+        text="Kinetic, stored and dissipated energy must add up to a constant. "
+        + _reference_energy(result),
         blocks=[Block(svg=figures.energy(result.history))],
     )
     yield _tables(result)
@@ -154,6 +153,19 @@ def _axes(result: "ProcessResult") -> Section:
         "flight before touchdown where nothing else is said; time counts from the "
         "start of the run.",
         blocks=[Block(svg=sketch, caption="The arrows start at the deck's origin.")],
+    )
+
+
+def _reference_energy(result: "ProcessResult") -> str:
+    """What the figure of the energies refers to."""
+    energy = f"{result.history.figures['sink_energy'] / 1e3:.1f} kJ"
+    if result.aircraft.scenario.start == "touchdown":
+        return (
+            f"The sink energy, half the mass times the sink rate squared, is {energy}."
+        )
+    return (
+        f"The aircraft rolls and does not sink: shares are those of {energy}, the sink "
+        "energy of a landing with the same mass."
     )
 
 

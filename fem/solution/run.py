@@ -12,7 +12,7 @@ from fem.deck.deck import Deck
 from fem.deck.executive import read_executive
 from fem.deck.sections import split_sections
 from fem.deck.source import read_source
-from fem.errors import InputError
+from fem.errors import InputError, by_kind
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
 from fem.solution.modes import solve_modes
@@ -176,7 +176,7 @@ def _introduce(structure: Structure, options: Options) -> None:
         f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
         f"{i[0, 2]:.5g} {i[1, 2]:.5g}"
     )
-    for notice in structure.notices:
+    for notice in by_kind(structure.notices):
         console.say(f"notice: {notice}")
     if options.quality and not structure.quality.empty:
         console.say(structure.quality.to_string(index=False, float_format="%.4g"))
