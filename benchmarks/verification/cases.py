@@ -9,6 +9,7 @@ from benchmarks.verification import (
     cantilevers,
     commercial,
     curved_shells,
+    drilling_shells,
     drop_tests,
     macneal_harder,
     nafems_beams,
@@ -111,6 +112,11 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         curved_shells.plates_of_any_thickness,
         curved_shells.pressurised_cylinder,
         curved_shells.single_elements,
+    ),
+    "Shells with drilling": (
+        drilling_shells.drilling_patches,
+        drilling_shells.cook_membrane,
+        drilling_shells.sheet_cantilever,
     ),
     "Landing gear": (drop_tests.main_gear,),
 }

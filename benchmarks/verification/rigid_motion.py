@@ -58,6 +58,9 @@ CQUAD4,105,3,1,2,3,4,30.,-.02
 CTRIA3,111,1,1,2,3
 CTRIA3,112,1,1,2,3,,.03
 CTRIA3,113,3,1,2,3,15.,.04
+CQUADR,106,1,1,2,3,4,,.03
+CQUADR,107,3,1,2,3,4,30.,-.02
+CTRIAR,108,3,1,2,3,15.,.04
 CQUAD8,114,1,1,2,3,4,15,16,+
 +,17,18
 CQUAD8,115,3,1,2,3,4,15,16,+
@@ -86,7 +89,9 @@ ENDDATA
 
 _WHAT = {
     101: "flat", 102: "warped", 103: "warped, offset", 104: "warped, tapered thickness",
-    105: "warped, composite, offset", 114: "curved", 115: "curved, composite, offset",
+    105: "warped, composite, offset", 106: "warped, offset",
+    107: "warped, composite, offset", 108: "composite, offset",
+    114: "curved", 115: "curved, composite, offset",
     116: "curved, offset",
     112: "offset", 113: "composite, offset",
     132: "offset", 133: "offset, pinned", 134: "tapered, offset, shear centre offset",

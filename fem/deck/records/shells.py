@@ -114,6 +114,39 @@ RECORDS = (
             results=SHELL_RESULTS,
         ),
     ),
+    # Their rotations about the normal are true freedoms.
+    Card(
+        name="CQUADR",
+        group=_GROUP,
+        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID g4:i>GRID "
+        "theta:u=0. zoffs:f=0.[L] - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan t4:f=nan",
+        finish=finish.shell,
+        more="mcid:i>CORD",
+        ids="own",
+        convert=conversions.corners,
+        element=Element(
+            reader="shells.quad4:read_cquadr",
+            topology=QUAD,
+            op2=Op2(type=228, corners=82, plies=232, force="plate", stress="plate"),
+            results=SHELL_RESULTS,
+        ),
+    ),
+    Card(
+        name="CTRIAR",
+        group=_GROUP,
+        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID theta:u=0. "
+        "zoffs:f=0.[L] - - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan",
+        finish=finish.shell,
+        more="mcid:i>CORD",
+        ids="own",
+        convert=conversions.corners,
+        element=Element(
+            reader="shells.tria3:read_ctriar",
+            topology=TRIA,
+            op2=Op2(type=227, plies=233, force="plate", stress="plate"),
+            results=SHELL_RESULTS,
+        ),
+    ),
     Card(
         name="CQUAD8",
         group=_GROUP,

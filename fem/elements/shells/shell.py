@@ -1,8 +1,8 @@
-"""Blocks of shells: CQUAD4 and CTRIA3 with their matrices and results.
+"""Blocks of shells: CQUAD4, CTRIA3, CQUADR, CTRIAR with their matrices and results.
 
 Membrane and bending: `shell_hybrid`; transverse shear: `shell_shear`; drilling:
-`shell_drilling`. Mass sits on the surface of the offset shell, that of a laminate at
-its own height.
+`shell_drilling`, and `drilling_membrane` of CQUADR and CTRIAR. Mass sits on the surface
+of the offset shell, that of a laminate at its own height.
 """
 
 from dataclasses import dataclass, replace
@@ -13,10 +13,11 @@ from fem.arrays import Float64, Int64
 from fem.deck.records.shells import PLY_STRAIN, PLY_STRESS, SHELL_FORCE, of_plies
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
+from fem.elements.shells.drilling_membrane import DrillingInPlane, drilling_in_plane
 from fem.elements.shells.failure_recovery import FailureRecovery, failure_names
 from fem.elements.shells.shell_drilling import drilling
 from fem.elements.shells.shell_geometry import Facet, facet, matrix_to_grids, to_grids
-from fem.elements.shells.shell_hybrid import in_plane
+from fem.elements.shells.shell_hybrid import InPlane, in_plane
 from fem.elements.shells.shell_mass import shell_mass
 from fem.elements.shells.shell_recovery import (
     FibreRecovery,
@@ -35,7 +36,7 @@ _CHUNK = 1024
 
 @dataclass(frozen=True, kw_only=True)
 class Shell(DenseBlock):
-    """CQUAD4 or CTRIA3 elements with PSHELL or with PCOMP; basic axes.
+    """Flat shells with three or four corners and PSHELL or with PCOMP; basic axes.
 
     Attributes:
         pid: (e,) property ids.
@@ -83,12 +84,23 @@ class Shell(DenseBlock):
         for start in range(0, len(self.id), _CHUNK):
             part = slice(start, start + _CHUNK)
             shape, section = self._shape(part), self.section.take(part)
-            local = in_plane(shape, section).stiffness()
+            local = self._in_plane(shape, section).stiffness()
             local += shear(shape, section)[0]
-            if self.k6rot:
+            if self.k6rot and not self.drills:
                 local += drilling(shape, section.membrane[:, 2, 2], self.k6rot)
             matrix[part] = matrix_to_grids(local, shape)
         return matrix
+
+    @property
+    def drills(self) -> bool:
+        """Rotations about the normal are true freedoms of the membrane."""
+        return self.card in ("CQUADR", "CTRIAR")
+
+    def _in_plane(
+        self, shape: Facet, section: ShellSection
+    ) -> InPlane | DrillingInPlane:
+        part = drilling_in_plane if self.drills else in_plane
+        return part(shape, section)
 
     def _shape(self, part: slice) -> Facet:
         return facet(self.corners[part], self.offset[part], self.normals[part])
@@ -115,7 +127,7 @@ class Shell(DenseBlock):
 
     def _resultants(self, part: slice, corner: bool) -> Float64:
         shape, section = self._shape(part), self.section.take(part)
-        plate = in_plane(shape, section).resultant(corner=corner)
+        plate = self._in_plane(shape, section).resultant(corner=corner)
         force = shear(shape, section)[1][:, None]
         force = np.broadcast_to(force, (*plate.shape[:2], *force.shape[2:]))
         local = np.concatenate([plate, force], axis=2)

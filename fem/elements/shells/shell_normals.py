@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from fem.geometry.points import Points
 
 
+# Cards of flat shells and their numbers of corners.
+FLAT = {"CQUAD4": 4, "CTRIA3": 3, "CQUADR": 4, "CTRIAR": 3}
+
+
 def grid_normals(
     xyz: Float64, connections: Sequence[Int64], limit_deg: float
 ) -> Float64:
@@ -47,9 +51,9 @@ def grid_normals(
 
 
 def deck_normals(deck: "Deck", points: "Points") -> Float64:
-    """`grid_normals` of all CQUAD4 and CTRIA3 of a deck."""
+    """`grid_normals` of all flat shells of a deck."""
     connections = []
-    for card, corners in (("CQUAD4", 4), ("CTRIA3", 3)):
+    for card, corners in FLAT.items():
         rows = table(deck, card)
         if len(rows):
             grids = rows[[f"g{k}" for k in range(1, corners + 1)]].to_numpy(np.int64)

@@ -1,8 +1,9 @@
-"""CTRIA3: three-node shell with constant membrane strain and curvature.
+"""CTRIA3: three-node shell with constant membrane strain and curvature; CTRIAR.
 
 Its transverse shear is sampled along the sides, with MacNeal's residual bending
 flexibility (`shell_shear`), so that it bends without locking; drilling penalty as for
-the quadrilateral. On right triangles its nodal forces are those of MSC and NX Nastran.
+the quadrilateral, true drilling of CTRIAR (`drilling_membrane`). On right triangles the
+nodal forces of CTRIA3 are those of MSC and NX Nastran.
 """
 
 from typing import TYPE_CHECKING
@@ -18,3 +19,8 @@ if TYPE_CHECKING:
 def read_ctria3(deck: "Deck", points: Points) -> list[Shell]:
     """The CTRIA3 blocks of a deck: with PSHELL, with PCOMP; see `read_shells`."""
     return read_shells(deck, points, "CTRIA3", 3)
+
+
+def read_ctriar(deck: "Deck", points: Points) -> list[Shell]:
+    """The CTRIAR blocks of a deck: with PSHELL, with PCOMP; see `read_shells`."""
+    return read_shells(deck, points, "CTRIAR", 3)
