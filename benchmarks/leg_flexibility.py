@@ -29,8 +29,8 @@ from drake_landing.landing.trial import Trial, try_scenario
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.reference.d150.gears import landing_gears
 from systems.airframe.modal_body import ModalBody
+from tests.drake_landing.gears.test_legs import Rig, duhamel, pulse_response
 from tests.drake_landing.landing_gears import aircraft_gears
-from tests.drake_landing.test_legs import Rig, duhamel, pulse_response
 
 FREQUENCIES = (None, 20.0, 16.0, 12.0, 10.0)  # Hz
 DAMPING_RATIO = 0.03

@@ -27,3 +27,11 @@ def test_constraints_pin_every_dependency() -> None:
         for w in wanted
     }
     assert names <= pinned
+
+
+def test_folders_of_tests_are_rooms() -> None:
+    for package in ("drake_landing", "fem", "systems"):
+        rooms = {path.name for path in (ROOT / package).iterdir() if path.is_dir()}
+        tests = ROOT / "tests" / package
+        folders = {path.name for path in tests.iterdir() if path.is_dir()}
+        assert folders - rooms - {"__pycache__"} == set(), package

@@ -7,8 +7,8 @@ from numpy.testing import assert_allclose
 from drake_landing.reduced.legs import with_read_legs
 from fem.errors import InputError
 from fem.files.matrices import NamedMatrix, write_dmig
+from tests.drake_landing.gears.test_legs import Rig, cantilever
 from tests.drake_landing.landing_gears import aircraft_gears, changed
-from tests.drake_landing.test_legs import Rig, cantilever
 
 ROOT, AXLE, LENGTH = 11, 22, 2.4
 MASS = 400.0

@@ -16,7 +16,7 @@ from systems.tire.aircraft_tire import TireSize, side_force_share, trail_share
 from systems.tire.slip import TabulatedSlip
 from systems.tire.tire_law import TireLaw, TireParameters
 from systems.tools.table import Table
-from tests.systems.test_tire import ONES, rolling, tilted
+from tests.systems.tire.test_tire import ONES, rolling, tilted
 
 INCH, POUND, PSI = 0.0254, 4.4482216, 6894.757
 MAIN = TireSize(diameter=46 * INCH, width=17 * INCH, rated_pressure=222 * PSI)

@@ -38,7 +38,7 @@ def test_rigid_airframe_is_drawn_as_it_is() -> None:
 
 
 def test_rods_of_a_telescopic_gear_lead_from_attachment_to_axle() -> None:
-    case = load_case(Path(__file__).with_name("tiny_case.yaml"))
+    case = load_case(Path(__file__).parents[1] / "tiny_case.yaml")
     main = case.gears[1]
     attachment = np.array([8.6, 2.0, -0.3])
     origin = {
@@ -58,7 +58,7 @@ def test_rods_of_a_telescopic_gear_lead_from_attachment_to_axle() -> None:
 
 
 def test_elastic_legs_are_seen_to_bend_about_their_root() -> None:
-    case = load_case(Path(__file__).with_name("tiny_case.yaml"))
+    case = load_case(Path(__file__).parents[1] / "tiny_case.yaml")
     law = {"frequency": 16.0}
     main = changed(case.gears[1], leg={"fore_aft": law, "lateral": law})
     attachment, time = np.array([8.6, 2.0, -0.3]), np.array([0.0, 0.1, 0.2])

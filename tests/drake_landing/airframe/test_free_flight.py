@@ -11,7 +11,7 @@ from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.model.structure import Structure
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 DECK = HERE.joinpath("tiny_aircraft.bdf").read_text()
 RIGHT = "CBAR,111,2,22,23,0.,0.,1."
 LEFT = "CBAR,115,2,32,33,0.,0.,1."

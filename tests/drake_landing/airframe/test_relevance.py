@@ -31,7 +31,7 @@ from fem.response.modal import modal_transient
 from fem.response.observation import Observation
 from fem.response.system import sampled_load
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()
 
 

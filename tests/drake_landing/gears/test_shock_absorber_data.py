@@ -11,7 +11,7 @@ from drake_landing.reference.d150.gears import landing_gears
 from fem.errors import InputError
 from systems.shock_absorber.orifice_damper import orifice_force
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 PLAIN = {"stroke": 0.47, "gas_length": 0.52, "precharge_force": 45e3}
 
 

@@ -19,7 +19,7 @@ from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.solution import run_deck
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()
 MM = ("deck: tiny_aircraft.bdf", "deck: tiny_aircraft_mm.bdf\n  units: mm-t-N")
 

@@ -17,7 +17,7 @@ from drake_landing.case.schema import Airframe
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 
-DECK = Path(__file__).parent / "tiny_aircraft.bdf"
+DECK = Path(__file__).parents[1] / "tiny_aircraft.bdf"
 GEARS = [51, 52, 53]
 
 

@@ -15,7 +15,7 @@ from drake_landing.transient.deck import (
 from fem.deck.case_control import Subcase
 from fem.errors import InputError
 
-TINY = Path(__file__).with_name("tiny_aircraft.bdf")
+TINY = Path(__file__).parents[1] / "tiny_aircraft.bdf"
 # Columns: the axes of CORD2R 10 of the tiny aircraft, z along (1,1,1)/sqrt(3).
 R_B10 = np.column_stack(
     [

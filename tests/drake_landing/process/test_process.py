@@ -20,7 +20,7 @@ from drake_landing.results.comparison import COLUMNS
 from drake_landing.results.result import ProcessResult
 from drake_landing.results.summary import key_figures
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()
 
 

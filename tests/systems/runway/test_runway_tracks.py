@@ -13,8 +13,8 @@ from systems.runway.roughness import ISO_8608, coherence, rough_tracks
 from systems.runway.runway import Runway
 from systems.runway.runway_profile import CosineBump, Waves, measured_tracks
 from systems.tire.tire_law import TireLaw, TireParameters
-from tests.systems.test_runway import wheel_circle_distance
-from tests.systems.test_tire import ONES, tilted
+from tests.systems.runway.test_runway import wheel_circle_distance
+from tests.systems.tire.test_tire import ONES, tilted
 
 LEFT = CosineBump(height=0.05, length=3.0, start=0.0)
 RIGHT = Waves(amplitude=0.02, wavelength=5.0)

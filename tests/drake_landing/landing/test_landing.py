@@ -24,7 +24,7 @@ POINTS = {"nose": 1, "tail": 9}
 
 @pytest.fixture(scope="module")
 def case() -> Case:
-    return load_case(Path(__file__).with_name("tiny_case.yaml"))
+    return load_case(Path(__file__).parents[1] / "tiny_case.yaml")
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.model.structure import Structure
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 TEXT = HERE.joinpath("tiny_case.yaml").read_text()
 PARTS = """
 parts:

@@ -34,7 +34,7 @@ from fem.model.structure import Structure
 from fem.recovery.elements import element_tables
 from fem.response.observation import Observation
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 WING = Beam(
     name="wing",
     outward="starboard",

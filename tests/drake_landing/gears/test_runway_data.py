@@ -14,7 +14,7 @@ from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 CASE = (HERE / "tiny_case.yaml").read_text()
 OLD = "scenario: {sink_rate: 1.2, forward_speed: 40}"
 LINE = 1 + CASE[: CASE.index(OLD)].count("\n")

@@ -11,7 +11,7 @@ from systems.runway.runway import Runway
 from systems.tire.magic_formula import MagicFormula
 from systems.tire.tire import Tire
 from systems.tire.tire_law import TireLaw, TireParameters
-from tests.systems.test_tire import ONES, evaluate, rolling
+from tests.systems.tire.test_tire import ONES, evaluate, rolling
 
 TIR = """[MDI_HEADER]
 FILE_TYPE = 'tir'

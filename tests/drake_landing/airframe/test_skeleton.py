@@ -24,7 +24,7 @@ def plate(n: int) -> Skeleton:
 
 
 def test_edges_of_the_tiny_aircraft() -> None:
-    deck = read_deck(Path(__file__).with_name("tiny_aircraft.bdf"))
+    deck = read_deck(Path(__file__).parents[1] / "tiny_aircraft.bdf")
     ids = np.sort(deck.cards["GRID"]["id"].to_numpy())
     edges = ids[element_edges(deck.cards, ids)]
     assert len(edges) == 19 + 3  # bars and rigid elements

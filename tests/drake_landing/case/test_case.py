@@ -25,7 +25,7 @@ def problems(text: str) -> list[str]:
 
 
 def gears_of_tiny_case() -> str:
-    text = Path(__file__).with_name("tiny_case.yaml").read_text()
+    text = (Path(__file__).parents[1] / "tiny_case.yaml").read_text()
     return text[text.index("gears:") :]
 
 

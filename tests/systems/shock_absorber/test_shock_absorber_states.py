@@ -26,7 +26,7 @@ from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
 from systems.tools.grid import Grid
 from systems.tools.table import Table
 from tests.systems.drop_rig import Rig, drop
-from tests.systems.test_drop_test_laws import MAIN_LEG
+from tests.systems.shock_absorber.test_drop_test_laws import MAIN_LEG
 
 ONE = GasSpring(precharge=45e3, gas_length=0.52)
 TWO = GasSpring(

@@ -18,7 +18,7 @@ from tests.drake_landing.landing_gears import aircraft_gears, changed
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body
 
-HERE = Path(__file__).parent
+HERE = Path(__file__).parents[1]
 SIZED = {"radius": 0.584, "stiffness": 2e6, "width": 0.4318, "pressure": 1.531e6}
 
 
