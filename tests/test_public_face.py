@@ -1,8 +1,10 @@
 """What a user imports is there, stays itself, and is not somebody else's."""
 
 import importlib
+import inspect
 import os
 import pkgutil
+import pydoc
 import subprocess
 import sys
 import types
@@ -58,6 +60,22 @@ def test_foreign_packages_are_named(foreign: str, tmp_path: Path) -> None:
     last = run.stderr.strip().splitlines()[-1]
     assert str(file) in last
     assert "rename" in last
+
+
+@pytest.mark.parametrize("name", [n for n in systems.__all__ if n.endswith("_")])
+def test_templated_systems_show_the_parameters_of_their_constructor(name) -> None:
+    system = getattr(systems, name[:-1])
+    assert system is getattr(systems, name)[None]
+    shown = inspect.signature(system)
+    assert next(iter(shown.parameters)) == "parameters"
+    assert "converter" not in shown.parameters
+    assert str(shown)[1:] in str(inspect.signature(system.__init__))
+
+
+def test_help_shows_what_a_tire_needs() -> None:
+    text = pydoc.render_doc(systems.Tire, renderer=pydoc.plaintext)
+    assert "(parameters: systems.tire.tire_law.TireParameters, runway:" in text
+    assert "out `wrench`" in text
 
 
 def test_version() -> None:

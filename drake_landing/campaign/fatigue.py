@@ -18,6 +18,11 @@ def cycles(history: Float64) -> pd.DataFrame:
 
     Returns:
         Columns `range`, `mean` (units of the history), `count` (1 or 0.5).
+
+    >>> cycles(np.array([0.0, 2.0, 1.0, 3.0]))
+       range  mean  count
+    0    1.0   1.5    1.0
+    1    3.0   1.5    0.5
     """
     found = [(c[0], c[1], c[2]) for c in rainflow.extract_cycles(history)]
     return pd.DataFrame(found, columns=["range", "mean", "count"])

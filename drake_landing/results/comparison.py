@@ -92,7 +92,11 @@ def correlation(reference: Float64, candidate: Float64) -> float:
 
 
 def sprague_geers(reference: Float64, candidate: Float64) -> SpragueGeers:
-    """M = sqrt(cc/rr) - 1 and P = acos(rc/sqrt(rr cc))/pi, with rc = sum of r c."""
+    """M = sqrt(cc/rr) - 1 and P = acos(rc/sqrt(rr cc))/pi, with rc = sum of r c.
+
+    >>> sprague_geers(np.array([0.0, 1.0]), np.array([0.0, 1.5]))
+    SpragueGeers(magnitude=0.5, phase=0.0)
+    """
     rr, cc = float(np.sum(reference**2)), float(np.sum(candidate**2))
     rc = float(np.sum(reference * candidate))
     if rr == 0 or cc == 0:

@@ -38,7 +38,11 @@ class Units:
         return self.force * self.length
 
     def factor(self, dimension: str) -> float:
-        """Of a dimension of a record, "M/L2"."""
+        """Of a dimension of a record.
+
+        >>> f"{Units(length=0.001, mass=1000.0).factor('M/L3'):g}"  # t/mm³ in kg/m³
+        '1e+12'
+        """
         above, _, below = dimension.partition("/")
         return self._product(above) / self._product(below)
 

@@ -24,7 +24,11 @@ def integer(text: str) -> int:
 
 
 def real(text: str) -> float:
-    """A real number: 1.5, -.5, 2.9+7, 1.E-3, 1.D3; an integer will do as well."""
+    """A real number: 1.5, -.5, 2.9+7, 1.E-3, 1.D3; an integer will do as well.
+
+    >>> real("2.9+7"), real("1.D3"), real("-.5")
+    (29000000.0, 1000.0, -0.5)
+    """
     try:
         value = float(text)
         plain = text.isascii() and "_" not in text and "N" not in text
@@ -40,7 +44,11 @@ def real(text: str) -> float:
 
 
 def components(text: str) -> str:
-    """Digits 1 to 6 in ascending order without repetition, or '0'."""
+    """Digits 1 to 6 in ascending order without repetition, or '0'.
+
+    >>> components("6213")
+    '1236'
+    """
     if not text.isascii() or not text.isdigit() or set(text) - set("0123456"):
         raise Malformed("component digits 1 to 6")
     digits = "".join(sorted(set(text) - {"0"}))

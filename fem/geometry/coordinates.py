@@ -52,7 +52,11 @@ BASIC = Frame("R", np.zeros(3), np.eye(3))
 
 
 def rectangular(kind: Kind, x: Float64) -> Float64:
-    """Rectangular coordinates (..., 3) from R, C or S coordinates (degrees)."""
+    """Rectangular coordinates (..., 3) from R, C or S coordinates (degrees).
+
+    >>> rectangular("C", np.array([2.0, 90.0, 5.0])).round(12).tolist()
+    [0.0, 2.0, 5.0]
+    """
     if kind == "R":
         return x
     r, theta = x[..., 0], np.radians(x[..., 1])

@@ -22,6 +22,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 from systems.tools.checks import require
 from systems.tools.scalar import Scalar, log, power
 from systems.tools.stops import contact_elastic, contact_energy, never_pulling
+from systems.tools.template import default_instantiation
 
 _E = math.e
 
@@ -182,4 +183,4 @@ def BogiePitch_(T):
     return Impl
 
 
-BogiePitch = BogiePitch_[None]
+BogiePitch = default_instantiation(BogiePitch_)

@@ -24,6 +24,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 from systems.tools.checks import require
 from systems.tools.scalar import Scalar, sqrt
 from systems.tools.table import Table
+from systems.tools.template import default_instantiation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,4 +181,4 @@ def Brake_(T):
     return Impl
 
 
-Brake = Brake_[None]
+Brake = default_instantiation(Brake_)

@@ -16,6 +16,7 @@ from systems.shock_absorber.strut_law import (
     ShockAbsorberTunables,
     StrutLaw,
 )
+from systems.tools.template import default_instantiation
 
 StrutState = namedview("StrutState", ["stroke", "rate"])
 StrutComponents = namedview("StrutComponents", ["gas", "damping", "friction", "stops"])
@@ -187,4 +188,4 @@ def ShockAbsorber_(T):
     return Impl
 
 
-ShockAbsorber = ShockAbsorber_[None]
+ShockAbsorber = default_instantiation(ShockAbsorber_)

@@ -17,6 +17,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 from systems.runway.runway import Runway
 from systems.tire.tire_law import TireLaw, TireParameters
 from systems.tools.checks import require
+from systems.tools.template import default_instantiation
 
 TireContact = namedview(
     "TireContact", ["deflection", "F_z", "F_x", "F_y", "slip", "slip_angle"]
@@ -174,4 +175,4 @@ def Tire_(T):
     return Impl
 
 
-Tire = Tire_[None]
+Tire = default_instantiation(Tire_)

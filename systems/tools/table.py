@@ -26,6 +26,10 @@ class Table:
     Raises:
         ValueError: lengths differ, fewer than two points, a value is not finite, or x
             does not ascend.
+
+    >>> table = Table([0.0, 2.0], [0.0, 4.0])
+    >>> table.value(1.0), table.slope(1.0), table.integral(1.0), table.value(3.0)
+    (2.0, 2.0, 1.0, 4.0)
     """
 
     x: Sequence[float]
