@@ -16,7 +16,7 @@ def default_instantiation(template: TemplateSystem) -> Any:
     own, behind which `help()` and consoles would not see what `_construct` takes.
     Type checkers see Any: the class depends on the scalar.
     """
-    system = template[None]
+    system: Any = template[None]
     parameters = inspect.signature(system._construct).parameters
     given = [p for name, p in parameters.items() if name not in _NOT_GIVEN_BY_USERS]
     system.__signature__ = inspect.Signature(given)
