@@ -11,6 +11,8 @@ from difflib import get_close_matches
 _FEW = 3  # notices of one kind that are told one by one
 _PLACES = re.compile(r"[^\s(]+:\d+")
 _NUMBERS = re.compile(r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
+_MOST_SHOWN = 200  # problems
+_LONGEST = 2000  # characters of a problem
 
 
 class InputError(ValueError):
@@ -24,7 +26,19 @@ class InputError(ValueError):
         self.problems: tuple[str, ...] = (
             (problems,) if isinstance(problems, str) else tuple(problems)
         )
-        super().__init__("\n".join(self.problems))
+        shown = list(map(_printable, self.problems[:_MOST_SHOWN]))
+        if more := len(self.problems) - len(shown):
+            shown.append(f"... and {more:,} more problems")
+        super().__init__("\n".join(shown))
+
+
+def _printable(text: str) -> str:
+    """Without what a terminal would take for a command, and not without end."""
+    if len(text) > _LONGEST:
+        text = f"{text[:_LONGEST]}... ({len(text):,} characters)"
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c == "\n" else "?" for c in text)
 
 
 def nearest(name: str, known: Sequence[str], cutoff: float = 0.6) -> str:

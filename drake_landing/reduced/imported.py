@@ -8,6 +8,7 @@ ascending, generalised coordinates last. Displacement frames of all grids are th
 frame.
 """
 
+import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -24,6 +25,7 @@ Float64 = npt.NDArray[np.float64]
 _GROUNDED = 1e-6  # of the largest term: force on a rigid motion that is not round-off
 _ASYMMETRIC = 1e-6
 ALL = "123456"
+_LARGEST_ID = 99_999_999
 
 
 def read_reduced(
@@ -46,9 +48,11 @@ def read_reduced(
         found |= read_matrices(path)
     kept = np.array([[c in digits for c in ALL] for digits in table.components])
     k, m = (_required(found, names[role], role) for role in ("stiffness", "mass"))
+    damped = names["damping"].upper() in found
+    b = _required(found, names["damping"], "damping") if damped else None
     size = len(k.values)
+    _check_shapes([k, m, *([b] if b is not None else [])])
     labels = _labels(k, table.id.to_numpy(), kept, size)
-    b = found.get(names["damping"].upper())
     notices = [] if b is not None else ["the matrices have no damping: undamped modes"]
     stiffness, mass = (_square(x, labels, names) for x in (k, m))
     damping = np.zeros((size, size)) if b is None else _square(b, labels, names)
@@ -91,8 +95,17 @@ def read_grids(path: Path) -> pd.DataFrame:
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     try:
-        table = pd.read_csv(path, dtype={"components": str}, skipinitialspace=True)
-    except (ValueError, pd.errors.ParserError) as error:
+        with warnings.catch_warnings():
+            # Rows longer than the head: no column becomes an index unseen.
+            warnings.simplefilter("error", pd.errors.ParserWarning)
+            table = pd.read_csv(
+                path,
+                dtype={"components": str},
+                skipinitialspace=True,
+                index_col=False,
+                compression=None,
+            )
+    except (ValueError, pd.errors.ParserError, pd.errors.ParserWarning) as error:
         raise InputError(f"{path}: {error}") from None
     missing = [c for c in ("id", "x", "y", "z") if c not in table]
     if missing or table.empty:
@@ -110,6 +123,8 @@ def read_grids(path: Path) -> pd.DataFrame:
             value = table[column].iloc[row]
             problems.append(f"{path}:{row + 2}: {column}: found {value!r}")
         table[column] = numbers
+    for row in np.flatnonzero(~table["id"].between(1, _LARGEST_ID)):
+        problems.append(f"{path}:{row + 2}: id: expected 1 to {_LARGEST_ID}")
     for row, digits in enumerate(table.components):
         if set(digits) - set(ALL) or len(set(digits)) != len(digits):
             problems.append(
@@ -130,7 +145,25 @@ def _required(found: Mapping[str, NamedMatrix], name: str, role: str) -> NamedMa
             f"matrices: no {role} matrix '{name}'; the files have {', '.join(known)}"
             + nearest(name.upper(), known)
         )
-    return found[name.upper()]
+    matrix = found[name.upper()]
+    if np.iscomplexobj(matrix.values):
+        raise InputError(f"matrices: {role} {matrix.name} is complex, expected real")
+    return matrix
+
+
+def _check_shapes(matrices: Sequence[NamedMatrix]) -> None:
+    """All are square; those without names of their rows, of one size."""
+    first = matrices[0]
+    for matrix in matrices:
+        rows, columns = matrix.values.shape
+        named = matrix.rows is not None and first.rows is not None
+        if rows != columns or (rows != len(first.values) and not named):
+            raise InputError(
+                f"matrices: {matrix.name} is {rows} x {columns}, expected "
+                f"{len(first.values)} x {len(first.values)} as {first.name}"
+                if matrix is not first
+                else f"matrices: {matrix.name} is {rows} x {columns}, expected a square"
+            )
 
 
 def _labels(

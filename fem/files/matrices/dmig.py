@@ -2,7 +2,8 @@
 
 A punched matrix has a header in small fields and a large-field card for each column:
 "DMIG*, name, G, C" and a line "*, G, C, value" for each term, D for the exponent, ten
-digits. Symmetric ones (form 6) give one triangle.
+digits. Symmetric ones (form 6) give one triangle. Complex ones have two values a term,
+or amplitude and phase in degrees (POLAR).
 """
 
 from collections.abc import Iterator
@@ -14,14 +15,21 @@ import numpy.typing as npt
 
 from fem.arrays import Int64
 from fem.deck.cards.dmig import read_dmig
-from fem.deck.lexer import read_cards
+from fem.deck.fields import Fields
+from fem.deck.lexer import RawCard, read_cards
 from fem.deck.source import read_source
+from fem.deck.values import Malformed
 from fem.errors import InputError
+from fem.files.matrices.checks import check_size, checked
 from fem.files.matrices.named import RECTANGULAR, SYMMETRIC, NamedMatrix
 
 _RECTANGULAR_HEADER = 9
+_FORMS = (1, 2, SYMMETRIC, _RECTANGULAR_HEADER)
 _REAL = (1, 2)
+_COMPLEX = ("3", "4")
 _KEY = 10  # point · 10 + component: sorts as freedoms do
+_LARGEST_COMPONENT = 6
+_LARGEST_ID = 10**12  # beyond it no integer of a deck is one
 
 
 def read_punch(path: Path) -> list[NamedMatrix]:
@@ -31,23 +39,50 @@ def read_punch(path: Path) -> list[NamedMatrix]:
         InputError: whatever is wrong with a card.
     """
     rows = _punched(path.read_text("latin-1").splitlines())
-    if rows is None:
-        lines = read_source(path).lines
-        cards = [card for card in read_cards(lines).cards if card.name == "DMIG"]
-        problems: list[str] = []
-        rows = read_dmig(cards, problems)
-        if problems:
-            raise InputError(problems)
-    return [
-        _matrix(
-            row["name"].upper(),
-            int(row["form"]),
-            _keys(row["rowids"], row["rowcs"]),
-            _keys(row["colids"], row["colcs"]),
-            row["values"],
+    try:
+        if rows is None:
+            cards = read_cards(read_source(path).lines).cards
+            rows = _rows(path, [card for card in cards if card.name == "DMIG"])
+        return [_matrix(row) for row in rows]
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _rows(path: Path, cards: list[RawCard]) -> list[dict[str, Any]]:
+    """A row for each matrix, as `read_dmig` makes them, complex ones too."""
+    heads = [card for card in cards if card.field(2) == "0"]
+    is_complex = {c.field(1): c for c in heads if c.field(4) in _COMPLEX}
+    problems: list[str] = []
+    rows = read_dmig([c for c in cards if c.field(1) not in is_complex], problems)
+    for name, head in is_complex.items():
+        columns = [c for c in cards if c.field(1) == name and c.field(2) != "0"]
+        try:
+            rows.append(_complex(Fields(head), columns))
+        except Malformed as error:
+            problems.append(f"{head.place}: DMIG {name}: {error}")
+    if problems:
+        raise InputError(
+            p if p.startswith(f"{path}:") else f"{path}: {p}" for p in problems
         )
-        for row in rows
-    ]
+    return rows
+
+
+def _complex(head: Fields, columns: list[RawCard]) -> dict[str, Any]:
+    form, polar = head.integer(3, "IFO"), head.integer(6, "POLAR", 0)
+    if form not in _FORMS:
+        raise Malformed(f"field IFO: found {form}, expected 1, 2, 6 or 9")
+    terms = []
+    for card in columns:
+        fields = Fields(card)
+        column = fields.integer(2, "GJ"), fields.integer(3, "CJ", 0)
+        for k in fields.groups(5, 4):
+            at = fields.integer(k, "G"), fields.integer(k + 1, "C", 0)
+            a, b = fields.real(k + 2, "A"), fields.real(k + 3, "B", 0.0)
+            value = a * np.exp(1j * np.radians(b)) if polar else complex(a, b)
+            terms.append((*at, *column, value))
+    return _row(head.text(1), form, terms, complex)
 
 
 def _punched(lines: list[str]) -> list[dict[str, Any]] | None:
@@ -71,40 +106,69 @@ def _punched(lines: list[str]) -> list[dict[str, Any]] | None:
                 into = terms[name]
             elif line.startswith("DMIG  ") and int(line[16:24]) == 0:
                 name, kind = line[8:16].strip(), int(line[32:40])
-                if kind > len(_REAL):
+                if kind not in _REAL or int(line[24:32]) not in _FORMS:
                     return None
                 forms[name], terms[name] = int(line[24:32]), []
             elif line.strip() and not line.startswith("$"):
                 return None
     except (ValueError, KeyError):
         return None
-    rows: list[dict[str, Any]] = []
-    for name, found in terms.items():
-        if forms[name] == SYMMETRIC:
-            found += [(c, d, a, b, x) for a, b, c, d, x in found if (a, b) != (c, d)]
-        parts = [np.array(part) for part in zip(*found)] or [np.zeros(0, int)] * 5
-        keys = ("rowids", "rowcs", "colids", "colcs", "values")
-        rows.append({"name": name, "form": forms[name], **dict(zip(keys, parts))})
-    return rows
+    for found in terms.values():
+        if any(abs(n) > _LARGEST_ID for term in found for n in term[:4]):
+            return None
+    return [_row(name, forms[name], found, float) for name, found in terms.items()]
+
+
+def _row(
+    name: str, form: int, terms: list[tuple[int, int, int, int, Any]], kind: type
+) -> dict[str, Any]:
+    if form == SYMMETRIC:
+        terms = terms + [(c, d, a, b, x) for a, b, c, d, x in terms if (a, b) != (c, d)]
+    parts = list(zip(*terms)) or [()] * 5
+    keys = ("rowids", "rowcs", "colids", "colcs")
+    row: dict[str, Any] = {k: np.array(p, np.int64) for k, p in zip(keys, parts)}
+    return {"name": name, "form": form, **row, "values": np.array(parts[4], kind)}
+
+
+def _matrix(row: dict[str, Any]) -> NamedMatrix:
+    """Square ones get the same freedoms for rows and columns."""
+    name, values = row["name"].upper(), row["values"]
+    try:
+        rows = _keys(row["rowids"], row["rowcs"])
+        columns = _keys(row["colids"], row["colcs"])
+        row_keys, column_keys = np.unique(rows), np.unique(columns)
+        if row["form"] not in (RECTANGULAR, _RECTANGULAR_HEADER):
+            row_keys = column_keys = np.union1d(row_keys, column_keys)
+        # Each freedom stands in the file, so that its size is no measure.
+        n, m = len(row_keys), len(column_keys)
+        check_size(n, m, n + m, 2 if values.dtype == complex else 1)
+        dense = np.zeros((n, m), values.dtype)
+        at = np.searchsorted(row_keys, rows), np.searchsorted(column_keys, columns)
+        dense[at] = values
+        _refuse_other_values(row, dense[at] != values)
+        labels = _labels(row_keys), _labels(column_keys)
+        return checked(name, dense, row["form"], *labels)
+    except ValueError as error:
+        raise ValueError(f"DMIG {name}: {error}") from None
+
+
+def _refuse_other_values(row: dict[str, Any], other: npt.NDArray) -> None:
+    if (again := np.flatnonzero(other & ~np.isnan(row["values"]))).size:
+        k = again[0]
+        raise ValueError(
+            f"row {row['rowids'][k]} component {row['rowcs'][k]}, column "
+            f"{row['colids'][k]} component {row['colcs'][k]} has two values"
+        )
 
 
 def _keys(ids: Int64, components: Int64) -> Int64:
+    wrong = (ids < 1) | (components < 0) | (components > _LARGEST_COMPONENT)
+    if (at := np.flatnonzero(wrong)).size:
+        raise ValueError(
+            f"found point {ids[at[0]]}, component {components[at[0]]}, expected a "
+            f"positive id and a component from 0 to {_LARGEST_COMPONENT}"
+        )
     return ids * _KEY + components
-
-
-def _matrix(
-    name: str, form: int, rows: Int64, columns: Int64, values: npt.NDArray
-) -> NamedMatrix:
-    """Square ones get the same freedoms for rows and columns."""
-    row_keys, column_keys = np.unique(rows), np.unique(columns)
-    if form not in (RECTANGULAR, _RECTANGULAR_HEADER):
-        row_keys = column_keys = np.union1d(row_keys, column_keys)
-    dense = np.zeros((len(row_keys), len(column_keys)))
-    at = np.searchsorted(row_keys, rows), np.searchsorted(column_keys, columns)
-    dense[at] = values
-    return NamedMatrix(
-        name=name, values=dense, rows=_labels(row_keys), columns=_labels(column_keys)
-    )
 
 
 def _labels(keys: Int64) -> Int64:

@@ -22,18 +22,19 @@ def read_matrices(path: Path) -> dict[str, NamedMatrix]:
     """
     if not path.is_file():
         raise InputError(f"{path}: no such file")
+    size = path.stat().st_size
     with path.open("rb") as file:
         start = file.read(4096)
     if start.startswith(_HDF5):
         found = read_h5(path)
     elif byte_order(start):
         with path.open("rb") as file:
-            found = read_binary(file, str(path))
+            found = read_binary(file, str(path), size)
     elif b"DMIG" in start.upper():
         found = read_punch(path)
     else:
         with path.open(encoding="latin-1") as file:
-            found = read_text(file, str(path))
+            found = read_text(file, str(path), size)
     names = [matrix.name for matrix in found]
     if not found:
         raise InputError(f"{path}: no matrix; expected DMIG, OUTPUT4 or HDF5")

@@ -4,24 +4,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fem.arrays import Float64, Int64
+from fem.arrays import Complex128, Float64, Int64
 
 SQUARE, RECTANGULAR, SYMMETRIC = 1, 2, 6
 
 
 @dataclass(frozen=True, kw_only=True)
 class NamedMatrix:
-    """A real matrix.
+    """A matrix; where a reduction or a deck uses it, it must be real.
 
     Attributes:
         name: up to eight characters.
-        values: (n, m).
+        values: (n, m), finite.
         rows, columns: (n, 2), (m, 2) point id and component (0 for a scalar point);
             None where the file does not say (OUTPUT4, HDF5).
     """
 
     name: str
-    values: Float64
+    values: Float64 | Complex128
     rows: Int64 | None = None
     columns: Int64 | None = None
 

@@ -69,8 +69,8 @@ def sparse_text(big: bool) -> str:
 
     return (
         f"{3:8d}{rows:8d}{2:8d}{2:8d}{'A':8}1P,3E23.16\n"
-        + f"{1:8d}{0:8d}{5:8d}\n{string(4, 2)}{value(-2.0, 3.5)}"
-        + f"{3:8d}{0:8d}{8:8d}\n{string(2, 1)}{value(1.0)}"
+        + f"{1:8d}{0:8d}{5 + big:8d}\n{string(4, 2)}{value(-2.0, 3.5)}"
+        + f"{3:8d}{0:8d}{8 + 2 * big:8d}\n{string(2, 1)}{value(1.0)}"
         + f"{string(4, 3)}{value(-7.0, -8.0)}"
         + f"{4:8d}{1:8d}{1:8d}\n{value(1.0)}"
     )
