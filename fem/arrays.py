@@ -4,6 +4,5 @@ import numpy as np
 import numpy.typing as npt
 
 Float64 = npt.NDArray[np.float64]
-Complex128 = npt.NDArray[np.complex128]
 Int64 = npt.NDArray[np.int64]
 Bool = npt.NDArray[np.bool_]

@@ -1,10 +1,12 @@
 """A matrix as it lies in a file: its name, its values, perhaps names of its rows."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
-from fem.arrays import Complex128, Float64, Int64
+from fem.arrays import Int64
 
 SQUARE, RECTANGULAR, SYMMETRIC = 1, 2, 6
 
@@ -15,13 +17,13 @@ class NamedMatrix:
 
     Attributes:
         name: up to eight characters.
-        values: (n, m), finite.
+        values: (n, m), real or complex, finite.
         rows, columns: (n, 2), (m, 2) point id and component (0 for a scalar point);
             None where the file does not say (OUTPUT4, HDF5).
     """
 
     name: str
-    values: Float64 | Complex128
+    values: npt.NDArray[Any]
     rows: Int64 | None = None
     columns: Int64 | None = None
 

@@ -58,7 +58,7 @@ def _named(
 
 def _own(file: h5py.File, path: Path) -> h5py.Group:
     """The group of matrices, reached without links."""
-    place: h5py.Group = file
+    place: h5py.Group | h5py.Dataset | h5py.Datatype = file
     for part in GROUP.split("/"):
         if not isinstance(place, h5py.Group) or part not in place.keys():  # noqa: SIM118
             raise InputError(
@@ -67,6 +67,8 @@ def _own(file: h5py.File, path: Path) -> h5py.Group:
             )
         _refuse_link(place, part)
         place = place[part]
+    if not isinstance(place, h5py.Group):
+        raise ValueError(f"{GROUP} is no group")
     return place
 
 
