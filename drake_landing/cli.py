@@ -268,10 +268,15 @@ def reduce(
 def cache(
     clear: Annotated[bool, typer.Option("--clear", help="delete what is kept")] = False,
 ) -> None:
-    """Where modes are kept between runs, and how much."""
+    """Where modes are kept between runs, and how much; `--clear`: machine code, too."""
+    import shutil
+
     from drake_landing.cache import Cache
+    from systems.tools.compiled import compiled_folder
 
     store = Cache.of_user()
+    if clear:
+        shutil.rmtree(compiled_folder(), ignore_errors=True)
     if store.folder is None:
         print("nothing is kept: DRAKE_LANDING_CACHE=off")
         return

@@ -5,19 +5,16 @@ element, the instants contiguous. The equivalent stress is kept as its square un
 end. The arithmetic has the precision of the tile.
 """
 
-import numba
+from functools import partial
+
 import numpy as np
 
-# Sums may be reordered for vector instructions; nothing is assumed of infinities.
-_OPTIONS = {
-    "cache": True,
-    "nogil": True,
-    "fastmath": {"reassoc", "contract", "nsz"},
-    "error_model": "numpy",
-}
+from systems.tools.compiled import compiled
+
+_threaded = partial(compiled, nogil=True)
 
 
-@numba.njit(**_OPTIONS)
+@_threaded
 def sheet_extremes(sigma, points, isotropic, first, square, when, high, low):
     """Von Mises and principal stresses of xx yy xy at the points of sheets.
 
@@ -58,7 +55,7 @@ def sheet_extremes(sigma, points, isotropic, first, square, when, high, low):
         _keep(line, top, bottom, first, e, square, when, high, low)
 
 
-@numba.njit(**_OPTIONS)
+@_threaded
 def line_extremes(sigma, points, isotropic, first, square, when, high, low):
     """Direct stresses at the points of bars and rods; see `sheet_extremes`."""
     t = sigma.shape[1]
@@ -80,7 +77,7 @@ def line_extremes(sigma, points, isotropic, first, square, when, high, low):
         _keep(line, top, bottom, first, e, square, when, high, low)
 
 
-@numba.njit(**_OPTIONS)
+@_threaded
 def _keep(line, top, bottom, first, e, square, when, high, low):
     """The extremes of an element's instants into the running ones."""
     t = len(line)

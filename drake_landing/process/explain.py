@@ -30,6 +30,7 @@ from drake_landing.cache import Cache
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
+from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
@@ -40,7 +41,6 @@ from fem.algebra.linear_solver import factorize
 from fem.errors import by_kind
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
-from systems.tools.compiled import compiled_before
 
 _AT_ONCE = 200_000  # freedoms that are factorised without being asked, some seconds
 _HEAD = 12  # characters
@@ -273,8 +273,7 @@ def _run(
         yield _line(
             "",
             f"about {_expected(case, structure, cost, length, steps)} of processor "
-            "time"
-            + ("" if compiled_before() else "; the first run compiles, half a minute"),
+            f"time{compilation_remark()}",
         )
 
 

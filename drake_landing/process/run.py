@@ -25,6 +25,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import case_text
 from drake_landing.case.schema import Case, Simulation
 from drake_landing.files import write_csv
+from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import LandingHistory, gear_peaks
 from drake_landing.landing.run import build_landing, fast_mode_notices, fly
@@ -48,7 +49,6 @@ from drake_landing.transient.step_error import expected_step_error
 from fem.errors import by_kind
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
-from systems.tools.compiled import compiled_before
 
 _LONGER = 1.6  # times the length of a run that ended too soon
 
@@ -237,7 +237,7 @@ def _once(
     practices: bool,
 ) -> _Flight:
     body, simulation = airframe.body, case.simulation
-    first = "" if compiled_before() else "; the first run compiles, half a minute"
+    first = compilation_remark()
     stages.begin("landing", f"(elastic modes in the multibody model: {body.n}{first})")
     history = _fly(case, aircraft, body, simulation, stages.progress, settling)
     histories = [history]

@@ -4,40 +4,85 @@ For functions of a few microseconds that a simulation calls ten thousand times: 
 arithmetic and short loops, where numpy spends most of its time on the call itself.
 Plain Python remains the language; `function.py_func` is the function uncompiled.
 
-The machine code is kept beside the module (or in the user's cache folder), and renewed
-when the module's file changes, or `vectors`: a compiled function calls only compiled
-functions of its own module and of that one.
+The machine code is kept in the user's cache folder (Linux: ~/.cache/drake-landing/
+compiled), or below the folder that the environment's NUMBA_CACHE_DIR names, under a
+name that depends on the text of the module and of `vectors`, on Python, numba and the
+processor: a compiled function calls only compiled functions of its own module and of
+`vectors`. Nothing is written beside the modules.
 """
 
 import hashlib
+import os
+import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import ParamSpec, TypeVar, cast
 
+import numba
+import platformdirs
+from llvmlite.binding import get_host_cpu_name
 from numba import njit
+from numba.core import config
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
-_VOCABULARY = Path(__file__).with_name("vectors.py").read_bytes()
-_EDITION = hashlib.sha256(_VOCABULARY).hexdigest()[:8]
+_VOCABULARY = Path(__file__).with_name("vectors.py")
 
 # Sums may be reordered, which lets loops use vector instructions; nothing is assumed
 # of infinities, NaN or signed zeros.
 _OPTIONS = {"fastmath": {"reassoc", "contract", "nsz"}, "error_model": "numpy"}
 
 
-def compiled_before() -> bool:
-    """Whether machine code is kept beside the modules; else the first calls compile."""
-    return any(Path(__file__).with_name("__pycache__").glob("*.nbi"))
+def compiled_folder() -> Path:
+    """Where machine code is kept."""
+    given = os.environ.get("NUMBA_CACHE_DIR")
+    if given:
+        return Path(given, "drake-landing")
+    return Path(platformdirs.user_cache_dir("drake-landing"), "compiled")
 
 
-def compiled(function: Callable[P, R]) -> Callable[P, R]:
-    """The function, compiled at its first call."""
-    # Numba files the machine code under this name.
-    function.__qualname__ += f"_{_EDITION}"
+def compiled_before(module: str) -> bool:
+    """Whether machine code of a module, by its file, is kept; else calls compile."""
+    return any(_folder(module).rglob("*.nbi"))
+
+
+def compiled(function: Callable[P, R], *, nogil: bool = False) -> Callable[P, R]:
+    """The function, compiled at its first call.
+
+    Args:
+        function: of a module.
+        nogil: other threads of Python run on meanwhile.
+    """
+    options = {**_OPTIONS, "nogil": nogil}
+    folder = _folder(function.__code__.co_filename)
+    if not _writable(folder):
+        return cast(Callable[P, R], njit(**options)(function))
+    # Numba looks up the folder when it decorates.
+    before, config.CACHE_DIR = config.CACHE_DIR, str(folder)
     try:
-        fast = njit(cache=True, **_OPTIONS)(function)
-    except RuntimeError:  # no folder that could be written to
-        fast = njit(**_OPTIONS)(function)
-    return cast(Callable[P, R], fast)
+        return cast(Callable[P, R], njit(cache=True, **options)(function))
+    finally:
+        config.CACHE_DIR = before
+
+
+def _folder(file: str) -> Path:
+    """Folder of the machine code of a module."""
+    return compiled_folder() / f"{Path(file).stem}-{_edition(file)}"
+
+
+@cache
+def _edition(file: str) -> str:
+    """Of all that machine code depends on."""
+    machine = f"{sys.version} {numba.__version__} {get_host_cpu_name()}"
+    text = Path(file).read_bytes() + _VOCABULARY.read_bytes()
+    return hashlib.sha256(machine.encode() + text).hexdigest()[:16]
+
+
+def _writable(folder: Path) -> bool:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return False
+    return os.access(folder, os.W_OK)

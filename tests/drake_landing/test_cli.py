@@ -283,12 +283,17 @@ def test_version(command: Run) -> None:
 def test_cache_is_shown_and_cleared(
     tmp_path: Path, command: Run, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("DRAKE_LANDING_CACHE", str(tmp_path))
+    kept, code = tmp_path / "kept", tmp_path / "code"
+    monkeypatch.setenv("DRAKE_LANDING_CACHE", str(kept))
     monkeypatch.setenv("DRAKE_LANDING_CACHE_GB", "2")
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(code))
     Cache.of_user().keep("modes", "a", {"x": np.zeros(1000)})
+    for owner in ("drake-landing", "another"):
+        (code / owner).mkdir(parents=True)
     assert "1 entries, 0.0 MB of at most 2 GB" in command("cache")[1]
     assert "deleted 1 entries" in command("cache", "--clear")[1]
-    assert list(tmp_path.iterdir()) == []
+    assert list(kept.iterdir()) == []
+    assert [path.name for path in code.iterdir()] == ["another"]
     monkeypatch.setenv("DRAKE_LANDING_CACHE", "off")
     assert "nothing is kept" in command("cache")[1]
 
