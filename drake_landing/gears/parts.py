@@ -18,7 +18,6 @@ from pydantic import (
     model_validator,
 )
 
-from systems.tire.magic_formula import MagicFormula
 
 Vector3 = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
@@ -233,6 +232,9 @@ class Tyre(Data):
     @classmethod
     def _formula(cls, path: Path | None) -> Path | None:
         if path is not None:
+            # The laws import Drake, which help and schema do without.
+            from systems.tire.magic_formula import MagicFormula
+
             MagicFormula.from_file(path)
         return path
 
