@@ -18,7 +18,6 @@ from pydantic import (
     model_validator,
 )
 
-
 Vector3 = tuple[float, float, float]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
