@@ -1,7 +1,7 @@
 # Two commands set up everything: `make demo` and `make test`.
-# They need Python 3.11 or 3.12 and make; the environment goes to .venv.
+# They need Python 3.12 or 3.11 and make; the environment goes to .venv. Another Python
+# than the first that is found: make PYTHON=/path/to/python
 
-PYTHON ?= $(shell command -v python3.11 || command -v python3.12 || command -v python3)
 VENV := .venv
 BIN := $(VENV)/bin
 READY := $(VENV)/.ready
@@ -11,7 +11,7 @@ READY := $(VENV)/.ready
 export OPENBLAS_NUM_THREADS := 1
 export MPLBACKEND := Agg
 
-.PHONY: demo test check format slow verify bench clean
+.PHONY: demo test check format slow verify bench python clean
 
 demo: $(READY)
 	$(BIN)/drake-landing demo
@@ -38,10 +38,15 @@ verify: $(READY)
 bench: $(READY)
 	$(BIN)/python -m benchmarks
 
-$(READY): pyproject.toml constraints.txt
-	$(PYTHON) -m venv $(VENV)
+$(READY): pyproject.toml constraints.txt | python
+	"$$(./find_python.sh $(VENV) $(PYTHON))" -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[test]'
 	touch $@
+
+# Says which Python it is before anything takes time, or what is in the way.
+python:
+	@found=$$(./find_python.sh $(VENV) $(PYTHON)) || exit 1; \
+	test -e $(READY) || echo "$(VENV) is made with $$found"
 
 clean:
 	rm -rf $(VENV) out build *.egg-info

@@ -5,6 +5,7 @@ import inspect
 import os
 import pkgutil
 import pydoc
+import shutil
 import subprocess
 import sys
 import types
@@ -80,6 +81,38 @@ def test_help_shows_what_a_tire_needs() -> None:
 
 def test_version() -> None:
     assert drake_landing.__version__.count(".") == 2
+
+
+@pytest.mark.slow
+def test_editors_find_the_packages_of_an_editable_install(tmp_path: Path) -> None:
+    """As README installs it, looked at by a type checker from another folder."""
+    source, place, venv = tmp_path / "source", tmp_path / "place", tmp_path / "venv"
+    for package in PACKAGES:
+        folder = Path(package.__path__[0])
+        shutil.copytree(folder, source / folder.name)
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, source)
+    subprocess.run([sys.executable, "-m", "venv", str(venv)], check=True)
+    python = str(venv / "bin" / "python")
+    install = [python, "-m", "pip", "install", "--quiet", "--no-deps", "-e"]
+    subprocess.run([*install, str(source)], check=True)
+    place.mkdir()
+    (place / "mine.py").write_text(
+        "from drake_landing import load_case\nfrom fem import read_deck\n"
+        "from systems import TireParameters\n"
+        "reveal_type(load_case)\nreveal_type(read_deck)\nreveal_type(TireParameters)\n"
+    )
+    run = subprocess.run(
+        [sys.executable, "-m", "pyright", "--pythonpath", python, "mine.py"],
+        cwd=place,
+        env={k: v for k, v in os.environ.items() if k != "PYTHONPATH"},
+        capture_output=True,
+        text=True,
+    )
+    assert run.returncode == 0, run.stdout
+    assert "-> Case" in run.stdout
+    assert "-> Deck" in run.stdout
+    assert "type[TireParameters]" in run.stdout
 
 
 @pytest.mark.slow

@@ -5,6 +5,8 @@ import sys
 import tomllib
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[1]
 
 
@@ -27,6 +29,42 @@ def test_constraints_pin_every_dependency() -> None:
         for w in wanted
     }
     assert names <= pinned
+
+
+@pytest.mark.parametrize(
+    ("script", "said"),
+    [
+        ("echo 3.13.1", "(3.13.1)"),
+        ("exit 127", "(does not start)"),
+        ('[ -z "${2#*ensurepip*}" ] && exit 1; echo 3.12.9', "install python3.12-venv"),
+    ],
+)
+def test_a_python_that_does_not_fit_is_said_in_one_line(
+    script: str, said: str, tmp_path: Path
+) -> None:
+    python = tmp_path / "python3.12"
+    python.write_text(f"#!/bin/sh\n{script}\n")
+    python.chmod(0o755)
+    find = ["sh", str(ROOT / "find_python.sh"), str(tmp_path / "venv"), str(python)]
+    run = subprocess.run(find, capture_output=True, text=True)
+    assert run.returncode == 1
+    assert run.stdout == ""
+    assert len(run.stderr.splitlines()) == 1
+    assert f"{python} (" in run.stderr
+    assert said in run.stderr
+
+
+def test_an_environment_of_another_python_is_not_ignored(tmp_path: Path) -> None:
+    held, asked = tmp_path / "venv" / "bin" / "python", tmp_path / "python"
+    held.parent.mkdir(parents=True)
+    for place, version in ((held, "3.11.7"), (asked, "3.12.1")):
+        place.write_text(f"#!/bin/sh\necho {version}\n")
+        place.chmod(0o755)
+    find = ["sh", str(ROOT / "find_python.sh"), str(tmp_path / "venv"), str(asked)]
+    run = subprocess.run(find, capture_output=True, text=True)
+    assert run.returncode == 1
+    assert "holds Python 3.11.7" in run.stderr
+    assert "make clean" in run.stderr
 
 
 def test_folders_of_tests_are_rooms() -> None:

@@ -26,12 +26,13 @@ Loc = tuple[int | str, ...]
 M = TypeVar("M", bound=BaseModel)
 
 
-def load_case(path: Path) -> Case:
+def load_case(path: str | Path) -> Case:
     """Reads and validates a case file; a deck's path is taken relative to it.
 
     Raises:
         InputError: the file cannot be read, or its content is not a valid case.
     """
+    path = Path(path)
     text = read_text(path)
     if re.search(r"(?im)^\s*(begin\s+bulk|cend|enddata)", text):
         raise InputError(

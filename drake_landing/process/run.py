@@ -55,7 +55,7 @@ _LONGER = 1.6  # times the length of a run that ended too soon
 
 def run_case(
     case: Case,
-    out: Path,
+    out: str | Path,
     progress: Reporter | None = None,
     *,
     practices: bool = False,
@@ -73,7 +73,7 @@ def run_case(
         LandingError: the landing could not be integrated.
     """
     with case.places.located():
-        return _run_case(case, out, Stages(progress), practices)
+        return _run_case(case, Path(out), Stages(progress), practices)
 
 
 def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> ProcessResult:
