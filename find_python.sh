@@ -19,7 +19,7 @@ version() {
 fits() { case $1 in 3.11.* | 3.12.*) ;; *) return 1 ;; esac; }
 
 # Debian keeps what `python -m venv` needs in a package of its own.
-makes_environments() { "$1" -c 'import ensurepip, venv' 2>/dev/null; }
+makes_environments() { "$1" -c 'import ensurepip, venv' >/dev/null 2>&1; }
 
 if [ -e "$venv/bin/python" ] || [ -L "$venv/bin/python" ]; then
     has=$(version "$venv/bin/python")
