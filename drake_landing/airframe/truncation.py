@@ -6,8 +6,10 @@ against that of all shapes that gear loads excite; rms of what is missing over r
 Gear loads: the modes left out answer loads at the attachments almost statically. Their
 share of the flexibility there, ΔC = Σ φ φᵀ/ω² of all less that of the modes that are
 in, lets an attachment yield by ΔC F too little. A gear that closes by s (stroke and
-tyre) under its load meets an airframe that is closer by that much: to first order its
-load is wrong by the share ΔC F / s.
+tyre) under its load F_g meets an airframe that is closer by that much: to first order
+its load is wrong by ΔC F · F_g/s. That is a share ΔC F / s of its own load, which says
+nothing where a gear is hardly loaded (both are nought for a nose gear in the air): the
+error is taken over the gear's load, or over a tenth of the largest where that is more.
 """
 
 from collections.abc import Sequence
@@ -21,6 +23,7 @@ from drake_landing.airframe.relevance import ModalModel, response
 Float64 = npt.NDArray[np.float64]
 
 WANTED = 0.05
+_LEAST_LOAD = 0.1  # of the largest load of a gear
 _LEAST_HZ = 0.5  # below it a shape is no vibration but rounding
 
 
@@ -64,6 +67,7 @@ def load_errors(
     chosen: ModalModel,
     loads: dict[int, Float64],
     closing: dict[int, float],
+    largest: dict[int, float],
 ) -> dict[int, float]:
     """Expected error of the vertical gear loads, over the load.
 
@@ -71,18 +75,22 @@ def load_errors(
         all_shapes, chosen: at all attachment nodes, B.
         loads: node -> (t, 6) force and moment on the airframe, B.
         closing: node of a gear -> largest closure of stroke and tyre along `up`, m.
+        largest: node of a gear -> its largest vertical load, N; 0: it never touches.
 
     Returns:
-        Node of `closing` -> share.
+        Node of a gear that touches -> share of its load, or of a tenth of the largest.
     """
     nodes = [n for n in loads if n in all_shapes.attachment]
     missing = _flexibility(all_shapes, nodes) - _flexibility(chosen, nodes)
     load = np.hstack([loads[n] for n in nodes])
     yielded = (load @ missing.T).reshape(len(load), len(nodes), 6)
+    least = _LEAST_LOAD * max(largest.values(), default=0.0)
     found = {}
     for node, s in closing.items():
+        if largest[node] <= 0.0 or s <= 0.0:
+            continue
         motion = np.linalg.norm(yielded[:, nodes.index(node), :3], axis=1)
-        found[node] = float(motion.max() / s) if s > 0.0 else 0.0
+        found[node] = float(motion.max() / s) * min(largest[node] / least, 1.0)
     return found
 
 

@@ -37,9 +37,11 @@ from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import FullResponse, full_response
 from drake_landing.process.landing_deck import check_landing_deck, write_landing_deck
 from drake_landing.progress import Reporter
+from drake_landing.results import units
 from drake_landing.results.comparison import RunLabel, comparison_table
 from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.late_extremes import flagged, late_extremes
+from drake_landing.results.readme import write_readme
 from drake_landing.results.result import ProcessResult, on_grid
 from drake_landing.results.stages import Stages
 from drake_landing.results.truncation import Truncation
@@ -172,19 +174,26 @@ def _load_errors(
     history: LandingHistory,
     loads: AttachmentLoads,
 ) -> dict[str, float]:
-    """Gear -> expected error of its load by modes that are left out."""
-    closing = {}
+    """Gear that touches -> expected error of its load by modes that are left out."""
+    closing, largest = {}, {}
     for gear in aircraft.gears:
         tyre = max(history.tyre[w]["deflection"].max() for w in gear.wheel_names)
         stroke = history.strut[gear.name]["stroke"].max()
         closing[gear.attachment_node] = float(stroke + max(tyre, 0.0))
+        vertical = history.leg(gear.name, "vertical").max()
+        largest[gear.attachment_node] = float(vertical)
     errors = load_errors(
         shapes,
         modal_model(airframe.structure, airframe.basis, aircraft),
         {int(n): loads.load[:, i] for i, n in enumerate(loads.node_id)},
         closing,
+        largest,
     )
-    return {gear.name: errors[gear.attachment_node] for gear in aircraft.gears}
+    return {
+        gear.name: errors[gear.attachment_node]
+        for gear in aircraft.gears
+        if gear.attachment_node in errors
+    }
 
 
 def _assemble(structure: Structure) -> tuple[int, int]:
@@ -296,7 +305,8 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
     stages.begin("writing the report")
     write_report(out / "report.html", result, pictures, unable)
     stages.end()
-    write_csv(out / "stages.csv", stages.table())
+    write_csv(out / "stages.csv", units.with_units(stages.table()))
+    write_readme(result, out)
 
 
 def write_files(result: ProcessResult, out: Path) -> None:
@@ -316,24 +326,30 @@ def write_files(result: ProcessResult, out: Path) -> None:
         gears=result.gears,
         parts=parts,
     )
-    write_csv(out / "comparison.csv", result.comparison)
+    write_csv(out / "comparison.csv", result.comparison)  # the agreed columns
     worst = tables.worst_elements(parts.judged, ultimate)
+    elements, sections = (
+        worst_elements(result.envelopes, 10),
+        tables.section_envelopes(parts),
+    )
     extremes = {
-        "gears": result.gears,
-        "worst_elements": worst_elements(result.envelopes, 10),
+        "worst_elements": elements.assign(unit=units.of_element_results(elements)),
         "worst_stresses": tables.stacked(worst, tables.axial_elements(parts.judged)),
-        "section_loads": tables.section_envelopes(parts),
+        "section_loads": sections.assign(unit=units.of_quantities(sections)),
     }
     for name, table in extremes.items():
-        end = result.history.time[-1] if name == "gears" else result.loads.time[-1]
-        write_csv(out / f"{name}.csv", flagged(table, end, result.swing))
-    write_csv(out / "late_extremes.csv", result.late)
-    write_csv(out / "section_roots.csv", tables.root_histories(parts), index=True)
+        late = flagged(table, result.loads.time[-1], result.swing)
+        write_csv(out / f"{name}.csv", units.with_units(late))
+    gears = result.gears.assign(unit=units.of_quantities(result.gears))
+    write_csv(out / "gears.csv", flagged(gears, history.time[-1], result.swing))
+    write_csv(out / "late_extremes.csv", units.with_units(result.late))
+    roots = units.with_units(tables.root_histories(parts))
+    write_csv(out / "section_roots.csv", roots, index=True)
     write_history_csv(
         out / "accelerations_equipment.csv", tables.equipment_histories(parts)
     )
     if result.practices is not None:
-        write_csv(out / "practices.csv", result.practices.table)
+        write_csv(out / "practices.csv", units.with_units(result.practices.table))
     write_history_csv(out / "attachment_loads.csv", history.attachment)
     write_history_csv(out / "tyres.csv", history.tyre)
     write_history_csv(out / "struts.csv", history.strut)

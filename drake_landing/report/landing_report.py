@@ -23,9 +23,12 @@ from drake_landing.report.page import (
 )
 from drake_landing.report.parts_sections import Picture, parts_sections
 from drake_landing.results.comparison import NEGLIGIBLE, shock_response_spectrum
+from drake_landing.results.readme import file_lines
 from drake_landing.results.reliability import reliability
 from drake_landing.results.summary import key_figures, mode_count, story
 from drake_landing.results.truncation import peaks_below
+from drake_landing.results.verdict import verdict
+from drake_landing.results.whole_mass import whole_mass
 from drake_landing.transient.extremes import worst_elements
 
 if TYPE_CHECKING:
@@ -83,8 +86,7 @@ def write_report(
             title=case.title or f"{result.aircraft.name}: landing",
             story=story(result),
             key_figures=key_figures(result),
-            notices=result.notices,
-            sections=list(_sections(result, pictures, unable)),
+            sections=list(_sections(result, pictures, unable, path.parent)),
             footer=", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
             + f", Python {platform.python_version()}. SI units.",
         ),
@@ -92,42 +94,35 @@ def write_report(
 
 
 def _sections(
-    result: "ProcessResult", pictures: Sequence[Picture], unable: str
+    result: "ProcessResult", pictures: Sequence[Picture], unable: str, folder: Path
 ) -> Iterator[Section]:
-    yield _axes(result)
     yield Section(
-        id="case",
-        title="Case",
+        id="verdict",
+        title="In short",
         blocks=[
-            pairs_block(_case_pairs(result)),
+            pairs_block(verdict(result)),
             pairs_block(reliability(result), "How far the numbers carry"),
             *_late(result),
         ],
     )
-    yield from parts_sections(result, pictures, unable)
-    yield Section(
-        id="gears",
-        title="Landing gears",
-        text="Tyre loads are those of the runway on all tyres of a gear: vertical is "
-        "normal to the runway, drag along it, aft. Stroke and force of a shock "
-        "absorber are along its own axis, positive in compression. The wheels stand "
-        "still at touchdown and are spun up by the drag.",
-        blocks=[
-            Block(svg=figures.struts_and_tyres(result.history)),
-            Block(svg=figures.force_over_stroke(result.history)),
-        ],
-    )
+    yield _axes(result)
+    yield _gears(result)
     yield Section(
         id="loads",
         title="Attachment loads",
         text="Force and moment of the gear on the airframe at the attachment node, in "
         f"the axes of the deck ({deck_axes(result.airframe.R_AB)}), as increments to "
-        "steady flight; moments are about the node. These load the full model.",
-        blocks=[Block(svg=figures.attachment_loads(result.history))],
+        "steady flight; moments are about the node, right-handed about the axes. These "
+        "load the full model.",
+        blocks=[
+            Block(svg=figures.attachment_loads(result.history)),
+            _attachment_nodes(result),
+        ],
     )
+    yield from parts_sections(result, pictures, unable)
     yield _accelerations(result)
-    yield _extremes(result)
     yield _spectra(result)
+    yield _extremes(result)
     yield Section(
         id="energy",
         title="Energy audit",
@@ -135,7 +130,16 @@ def _sections(
         + _reference_energy(result),
         blocks=[Block(svg=figures.energy(result.history))],
     )
-    yield _tables(result)
+    yield _case(result)
+    yield _files(result, folder)
+    if result.notices:
+        yield Section(
+            id="notices",
+            title=f"Notices ({len(result.notices)})",
+            text="What the program met in the deck and the case; of one kind, one line "
+            "with the number.",
+            blocks=[Block(items=result.notices)],
+        )
 
 
 def _axes(result: "ProcessResult") -> Section:
@@ -144,7 +148,7 @@ def _axes(result: "ProcessResult") -> Section:
     sketch = axes_sketch(structure, R_AB, gears, list(result.parts.cuts.values()))
     return Section(
         id="axes",
-        title="Axes",
+        title="Axes, units, signs, mass",
         text="All on this page and in the files is along the axes x, y, z of the "
         f"deck's basic frame ({deck_axes(R_AB)}) and in SI units (m, kg, s, N, Pa), "
         "whatever the units of the deck, unless the line itself says otherwise. "
@@ -152,7 +156,43 @@ def _axes(result: "ProcessResult") -> Section:
         "turn with it. Loads, accelerations and stresses are increments to the steady "
         "flight before touchdown where nothing else is said; time counts from the "
         "start of the run.",
-        blocks=[Block(svg=sketch, caption="The arrows start at the deck's origin.")],
+        blocks=[
+            Block(svg=sketch, caption="The arrows start at the deck's origin."),
+            pairs_block(_mass_pairs(result), "Mass, gears extended"),
+        ],
+    )
+
+
+def _mass_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
+    """Of the airframe and of the aircraft with its gears."""
+    body, R_AB = result.airframe.body, result.airframe.R_AB
+    whole = whole_mass(result.airframe, result.aircraft.gears)
+    inertia = whole.inertia
+    pairs = [
+        ("airframe without gears", _mass(body.mass, R_AB.T @ body.p_BG)),
+        ("aircraft with gears", _mass(whole.mass, whole.cg)),
+        (
+            "inertia with gears",
+            "about that centre of gravity, axes of the deck, kg m²: "
+            + ", ".join(f"I{a}{a} {inertia[i, i]:,.0f}" for i, a in enumerate("xyz"))
+            + "; products (minus the integrals) "
+            + ", ".join(
+                f"I{'xyz'[i]}{'xyz'[j]} {inertia[i, j]:z,.0f}"
+                for i, j in ((0, 1), (0, 2), (1, 2))
+            ),
+        ),
+    ]
+    gears = [
+        f"{g.name.replace('_', ' ')} {g.mass:,.1f} kg" for g in result.aircraft.gears
+    ]
+    return [*pairs, ("gears", ", ".join(gears))]
+
+
+def _mass(mass: float, cg: np.ndarray) -> str:
+    x, y, z = cg
+    return (
+        f"{mass:,.1f} kg, centre of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m "
+        "from the origin of the deck"
     )
 
 
@@ -173,7 +213,8 @@ def _late(result: "ProcessResult") -> list[Block]:
     """Extremes that came in the last swing."""
     if result.late.empty:
         return []
-    heads = {"kind": "kind", "quantity": "quantity", "value": "SI", "time": "time, s"}
+    heads = {"kind": "kind", "quantity": "quantity", "value": "extreme", "unit": "unit"}
+    heads |= {"time": "time s"}
     return [
         table_block(
             result.late,
@@ -255,7 +296,38 @@ def _spectra(result: "ProcessResult") -> Section:
     )
 
 
-def _tables(result: "ProcessResult") -> Section:
+def _gears(result: "ProcessResult") -> Section:
+    return Section(
+        id="gears",
+        title="Landing gears",
+        text="Tyre loads are those of the runway on all tyres of a gear: vertical is "
+        "normal to the runway, drag along it, aft. Stroke and force of a shock "
+        "absorber are along its own axis, positive in compression. The wheels stand "
+        "still at touchdown and are spun up by the drag.",
+        blocks=[
+            _gear_peaks(result),
+            Block(svg=figures.struts_and_tyres(result.history)),
+            Block(svg=figures.force_over_stroke(result.history)),
+        ],
+    )
+
+
+def _attachment_nodes(result: "ProcessResult") -> Block:
+    """Where the nodes are that moments are about."""
+    points, rows = result.airframe.structure.points, []
+    for gear in result.aircraft.gears:
+        for name, node in gear.attachments.items():
+            x, y, z = points.xyz[points.rows(node)]
+            rows.append(
+                {"name": name.replace("_", " "), "node": str(node)}
+                | {"x": float(x), "y": float(y), "z": float(z)}
+            )
+    heads = {"name": "attachment", "node": "grid", "x": "x m", "y": "y m", "z": "z m"}
+    formats = dict.fromkeys("xyz", ".3f")
+    return table_block(pd.DataFrame(rows), heads, formats, "Attachment nodes")
+
+
+def _gear_peaks(result: "ProcessResult") -> Block:
     peaks = result.gears.pivot(index="gear", columns="quantity", values="peak")
     peaks = peaks.loc[list(dict.fromkeys(result.gears["gear"]))].reset_index()
     kilo = [c for c in peaks.columns if c not in ("gear", "stroke")]
@@ -266,33 +338,51 @@ def _tables(result: "ProcessResult") -> Section:
         "tyre_vertical": "tyre vertical kN",
         "tyre_drag": "tyre drag kN",
         **{f"attachment_f{a}": f"F{a} kN" for a in "xyz"},
-        **{f"attachment_m{a}": f"M{a} kNm" for a in "xyz"},
+        **{f"attachment_m{a}": f"M{a} kN m" for a in "xyz"},
     }
     formats = dict.fromkeys(heads, ".2f") | {"stroke": ".4f"}
     # Zero by symmetry reads better without a sign.
     peaks[kilo] = peaks[kilo].where(peaks[kilo].abs() > 5e-3, 0.0)
+    return table_block(
+        peaks,
+        heads,
+        formats,
+        f"Load case '{result.case.name}': peaks per gear (largest magnitude, with its "
+        "sign): tyres in the axes of the runway; F and M on the airframe at the "
+        f"attachment node, axes of the deck ({deck_axes(result.airframe.R_AB)}), "
+        "increments to steady flight",
+    )
+
+
+def _case(result: "ProcessResult") -> Section:
     return Section(
-        id="tables",
-        title="Tables and files",
-        text="Beside this page: results.h5 with all histories, comparison.csv, "
-        "gears.csv, the histories as CSV, the replay landing.html, and "
-        "landing_sol109.bdf, the complete deck of the transient.",
+        id="case",
+        title="Case and gears",
         blocks=[
-            table_block(
-                peaks,
-                heads,
-                formats,
-                "Peaks per gear (largest magnitude, with its sign): tyres in the "
-                "axes of the runway; F and M on the airframe at the attachment "
-                f"node, axes of the deck ({deck_axes(result.airframe.R_AB)})",
+            pairs_block(_case_pairs(result)),
+            Block(
+                caption="The case file, defaults written out",
+                pre=case_text(result.case),
             ),
+        ],
+    )
+
+
+def _files(result: "ProcessResult", folder: Path) -> Section:
+    return Section(
+        id="files",
+        title="Files and time",
+        text="Beside this page lie the files below; README.txt there names the "
+        "columns, units and frames.",
+        blocks=[
+            pairs_block(file_lines(result, folder)),
             table_block(
                 result.stages.table(),
                 {
                     "stage": "stage",
-                    "wall": "seconds",
+                    "wall": "time s",
                     "share": "share",
-                    "processor": "processor seconds",
+                    "processor": "processor time s",
                     "memory_gb": "peak memory so far GB",
                 },
                 {
@@ -302,10 +392,6 @@ def _tables(result: "ProcessResult") -> Section:
                     "memory_gb": ".2f",
                 },
                 "Time and memory taken until this page was written",
-            ),
-            Block(
-                caption="The case file, defaults written out",
-                pre=case_text(result.case),
             ),
         ],
     )

@@ -10,6 +10,7 @@ from typing import Any
 
 import pandas as pd
 from jinja2 import Environment, StrictUndefined
+from markupsafe import Markup
 
 from fem.files.aside import write_aside
 
@@ -34,6 +35,7 @@ class Block:
         heads, rows: table.
         fold: the table is to be unfolded.
         pre: preformatted text.
+        items: lines of a list.
     """
 
     caption: str = ""
@@ -44,6 +46,7 @@ class Block:
     heads: Sequence[str] = ()
     rows: Sequence[Sequence[Cell]] = ()
     pre: str = ""
+    items: Sequence[str] = ()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,7 +68,6 @@ class Page:
     story: str
     key_figures: Sequence[tuple[str, str]]
     sections: Sequence[Section]
-    notices: Sequence[str] = ()
     footer: str = ""
     extra: dict[str, Any] = field(default_factory=dict)
 
@@ -76,6 +78,7 @@ def write_page(path: Path, page: Page) -> None:
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
+    environment.filters["css_text"] = _css_text
     template = environment.from_string(
         folder.joinpath("report.html.j2").read_text(encoding="utf-8")
     )
@@ -83,6 +86,11 @@ def write_page(path: Path, page: Page) -> None:
         vars(page) | {"style": folder.joinpath("style.css").read_text(encoding="utf-8")}
     )
     write_aside(path, lambda to: to.write_text(text, encoding="utf-8") and None)
+
+
+def _css_text(text: str) -> Markup:
+    """Text as it stands within a CSS string; nothing in it can end string or style."""
+    return Markup("".join(c if c.isalnum() else f"\\{ord(c):x} " for c in text))
 
 
 def table_block(

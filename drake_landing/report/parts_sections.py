@@ -22,6 +22,7 @@ SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
 Picture = tuple[Path, str]
 # Beams whose loads differ less are mirror images and are shown once.
 _ALIKE = 0.01
+_NOUGHT = 1e-6  # of the largest of all parts: rounding
 
 _COMPONENT = {
     "component": "component",
@@ -55,10 +56,8 @@ def parts_sections(
         pictures: PNG files and what they show.
         unable: why there are none.
     """
-    stresses, sections = _stresses(result, pictures, unable), _section_loads(result)
-    # Of sticks without stress points the section loads tell more.
-    few = result.parts.judged.axial_only.any()
-    yield from (sections, stresses) if few else (stresses, sections)
+    yield _section_loads(result)
+    yield _stresses(result, pictures, unable)
     if result.parts.places.panels:
         yield _panels(result)
     yield _equipment(result)
@@ -164,9 +163,14 @@ def _section_loads(result: "ProcessResult") -> Section:
     found = result.parts
     blocks, left_out = [], []
     shown: list[tuple[str, np.ndarray]] = []
+    size = {n: _size(c.named(found.landing.sections[n])) for n, c in found.cuts.items()}
+    nought = _NOUGHT * max(size.values(), default=0.0)
     for name, cuts in found.cuts.items():
         loads = found.landing.sections[name]
         named = np.abs(cuts.named(loads))
+        if size[name] <= nought:
+            left_out.append(f"{name} (nought by symmetry)")
+            continue
         twin = next((n for n, other in shown if _alike(named, other)), None)
         if twin is not None:
             left_out.append(f"{name} (the mirror image of {twin})")
@@ -196,6 +200,10 @@ def _section_loads(result: "ProcessResult") -> Section:
         "results.h5, group parts/sections; extremes: section_loads.csv.",
         blocks=blocks,
     )
+
+
+def _size(named: np.ndarray) -> float:
+    return float(np.abs(named).max(initial=0.0))
 
 
 def _points_said(found: PartsFound) -> str:
@@ -236,9 +244,9 @@ def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
         "point_y": "y m",
         "point_z": "z m",
         "acts": "quantity",
-        "min": "least kN, kNm",
+        "min": "least kN, kN m",
         "time_of_min": "at s",
-        "max": "largest kN, kNm",
+        "max": "largest kN, kN m",
         "time_of_max": "at s ",
     }
     formats = {"min": ".1f", "max": ".1f"}
@@ -342,7 +350,7 @@ def _practices(result: "ProcessResult", practices: Practices) -> Section:
         by = own.set_index("practice")
         unit = str(own.unit.iloc[0])
         factor, shown = {
-            "Pa": (1e-6, "MPa"), "N": (1e-3, "kN"), "N m": (1e-3, "kNm")
+            "Pa": (1e-6, "MPa"), "N": (1e-3, "kN"), "N m": (1e-3, "kN m")
         }.get(unit, (1.0, unit))  # fmt: skip
         rows.append(
             {

@@ -14,9 +14,13 @@ Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
     /parts/acceleration/<grid>   (t, 3), B; /parts/time
     /parts/stress       id, equivalent, time, largest, smallest of each element;
                         with axial_only these leave out bending
+    /envelope/element_force, element_stress/<type>   id, min, max, time_of_min,
+                        time_of_max; attribute columns of the group, Nastran's names
     /airframe           frequency_hz, mass, cg and inertia (axes A: aft, starboard, up,
                         origin of the deck), node_id; R_AB from the deck's axes to A
     /comparison, /gears   one dataset per column of the CSV tables
+
+Each dataset has an attribute `unit`, or `units`, one per column.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,12 +29,19 @@ from typing import TYPE_CHECKING
 
 import h5py
 import numpy as np
+import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.files import versions, write_csv
 from drake_landing.landing.handover import AttachmentLoads
-from drake_landing.landing.history import UNITS, LandingHistory
+from drake_landing.landing.history import LandingHistory
 from drake_landing.parts.cuts import COMPONENTS, NAMED
+from drake_landing.results.units import (
+    element_unit,
+    of_quantities,
+    unit_of,
+    with_units,
+)
 from fem.files.aside import write_aside
 from fem.recovery.envelope import Envelope
 from systems.airframe.modal_body import ModalBody
@@ -47,11 +58,6 @@ FILES = (
     "tables (CSV)",
     "pictures",
 )
-_UNITS = {
-    **UNITS,
-    **dict.fromkeys(("qw", "qx", "qy", "qz"), "1"),
-    **dict.fromkeys(("px", "py", "pz"), "m"),
-}
 
 
 def write_history_csv(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
@@ -59,7 +65,7 @@ def write_history_csv(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
     joined = pd.concat(
         [t.add_prefix(f"{name}_") for name, t in tables.items()], axis="columns"
     )
-    write_csv(path, joined.rename_axis("time"), index=True)
+    write_csv(path, with_units(joined.rename_axis("time")), index=True)
 
 
 def write_results(
@@ -102,20 +108,39 @@ def write_results(
                 _write_series(file, f"fe/monitoring/{point}", table)
             for envelope in envelopes:
                 envelope.write(file)
+            _name_units(file)
             _write_parts(file.create_group("parts"), parts)
             _write_airframe(file.create_group("airframe"), body, R_AB)
             _write_table(file.create_group("comparison"), comparison)
-            _write_table(file.create_group("gears"), gears)
+            peaks = gears.assign(unit=of_quantities(gears))
+            _write_table(file.create_group("gears"), peaks)
 
     write_aside(path, write)
 
 
+def _dataset(group: h5py.Group, name: str, values: npt.ArrayLike, unit: str) -> None:
+    """Values of one unit, which is an attribute."""
+    group[name] = values
+    group[name].attrs["unit"] = unit
+
+
+def _name_units(file: h5py.File) -> None:
+    """Units of the extremes of element results, one per column."""
+    for table in file.get("envelope", {}).values():
+        result = table.name.rsplit("_", 1)[-1]
+        for kind, group in table.items():
+            columns = [str(c) for c in group.attrs["columns"]]
+            units = [element_unit(result, kind, c) for c in columns]
+            group["id"].attrs["unit"] = "1"
+            for name in ("min", "max"):
+                group[name].attrs["units"] = units
+                group[f"time_of_{name}"].attrs["unit"] = "s"
+
+
 def _write_loads(group: h5py.Group, loads: AttachmentLoads) -> None:
-    group["time"], group["node_id"], group["load"] = (
-        loads.time,
-        loads.node_id,
-        loads.load,
-    )
+    _dataset(group, "time", loads.time, "s")
+    _dataset(group, "node_id", loads.node_id, "1")
+    group["load"] = loads.load
     group["load"].attrs["columns"] = ["fx", "fy", "fz", "mx", "my", "mz"]
     group["load"].attrs["units"] = ["N"] * 3 + ["N m"] * 3
 
@@ -133,10 +158,11 @@ def _write_history(group: h5py.Group, history: LandingHistory) -> None:
             _write_series(group, f"{kind}/{name}", table)
     _write_series(group, "motion", history.motion)
     _write_series(group, "energy", history.energy, unit="J")
-    group["modal_amplitudes"] = history.amplitudes
+    _dataset(group, "modal_amplitudes", history.amplitudes, "1")
     for name, poses in history.bodies.items():
         group[f"bodies/{name}"] = poses
         group[f"bodies/{name}"].attrs["columns"] = list(history.motion.columns)
+        group[f"bodies/{name}"].attrs["units"] = ["1"] * 4 + ["m"] * 3
 
 
 def _write_series(
@@ -144,17 +170,18 @@ def _write_series(
 ) -> None:
     """Time and values; `unit` is that of columns without one of their own."""
     at = group.create_group(name)
-    at["time"] = table.index.to_numpy()
+    _dataset(at, "time", table.index.to_numpy(), "s")
     at["value"] = table.to_numpy()
     at["value"].attrs["columns"] = [str(c) for c in table.columns]
-    at["value"].attrs["units"] = [_UNITS.get(str(c), unit) for c in table.columns]
+    at["value"].attrs["units"] = [unit_of(str(c)) or unit for c in table.columns]
 
 
 def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
-    group["time"] = parts.time
+    _dataset(group, "time", parts.time, "s")
     for name, cuts in parts.cuts.items():
         at = group.create_group(f"sections/{name}")
-        at["station"], at["point"] = cuts.beam.stations, cuts.point
+        _dataset(at, "station", cuts.beam.stations, "m")
+        _dataset(at, "point", cuts.point, "m")
         at["value"] = parts.landing.sections[name]
         at["value"].attrs["columns"] = list(COMPONENTS)
         at["value"].attrs["units"] = ["N"] * 3 + ["N m"] * 3
@@ -163,23 +190,25 @@ def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
         for quantity, axis in zip(NAMED, (beam.lift, beam.across, beam.direction)):
             at.attrs[quantity] = axis
     for grid, values in parts.landing.acceleration.items():
-        group[f"acceleration/{grid}"] = values
+        _dataset(group, f"acceleration/{grid}", values, "m/s²")
     stress = group.create_group("stress")
     table = parts.landing.stress
-    stress["id"] = table["id"].to_numpy(np.int64)  # none where there is no element
+    # None where there is no element.
+    _dataset(stress, "id", table["id"].to_numpy(np.int64), "1")
     for column in ("equivalent", "time", "largest", "smallest"):
-        stress[column] = table[column].to_numpy(float)
-    stress["axial_only"] = table.axial_only.to_numpy(bool)
+        _dataset(stress, column, table[column].to_numpy(float), unit_of(column))
+    _dataset(stress, "axial_only", table.axial_only.to_numpy(bool), "1")
 
 
 def _write_airframe(group: h5py.Group, body: ModalBody, R_AB: np.ndarray) -> None:
-    group["R_AB"] = R_AB
-    group["frequency_hz"] = body.frequency
-    group["modal_mass"] = body.modal_mass
-    group["modal_damping"] = body.modal_damping
-    group["mass"], group["cg"] = body.mass, body.p_BG
-    group["inertia"] = body.inertia_G
-    group["node_id"] = body.node_id
+    _dataset(group, "R_AB", R_AB, "1")
+    _dataset(group, "frequency_hz", body.frequency, "Hz")
+    _dataset(group, "modal_mass", body.modal_mass, "kg")
+    _dataset(group, "modal_damping", body.modal_damping, "kg/s")
+    _dataset(group, "mass", body.mass, "kg")
+    _dataset(group, "cg", body.p_BG, "m")
+    _dataset(group, "inertia", body.inertia_G, "kg m²")
+    _dataset(group, "node_id", body.node_id, "1")
 
 
 def _write_table(group: h5py.Group, table: pd.DataFrame) -> None:
@@ -187,4 +216,6 @@ def _write_table(group: h5py.Group, table: pd.DataFrame) -> None:
         values = table[column].to_numpy()
         if values.dtype == object:
             values = np.array([str(v) for v in values], dtype=h5py.string_dtype())
-        group[str(column)] = values
+        unit = unit_of(str(column))
+        by_row = "by the dataset unit" if column in ("peak", "value") else "1"
+        _dataset(group, str(column), values, unit or by_row)

@@ -9,7 +9,7 @@ from drake_landing.landing.settling import late
 from drake_landing.parts.tables import component_table, root_histories
 from drake_landing.parts.watch import PartsFound
 
-COLUMNS = ["kind", "quantity", "value", "time"]
+COLUMNS = ["kind", "quantity", "value", "unit", "time"]
 LATE = "last_swing"
 
 
@@ -24,7 +24,7 @@ def late_extremes(
         swing: s.
 
     Returns:
-        Rows `COLUMNS`: the extreme in the last swing (m/s², N, N m, Pa), s. Histories
+        Rows `COLUMNS`: the extreme in the last swing, its unit, s. Histories
         must exceed by 1 % what came before; of a stress only its instant is known.
     """
     accelerations = [t.add_prefix(f"{point} ") for point, t in response.items()]
@@ -32,9 +32,9 @@ def late_extremes(
     forces = [c for c in sections if str(c).endswith("shear")]
     moments = [c for c in sections if c not in forces]
     rows = [
-        *_of("acceleration", pd.concat(accelerations, axis="columns"), swing),
-        *_of("section load", sections[forces], swing),
-        *_of("section load", sections[moments], swing),
+        *_of("acceleration", "m/s²", pd.concat(accelerations, axis="columns"), swing),
+        *_of("section load", "N", sections[forces], swing),
+        *_of("section load", "N m", sections[moments], swing),
         *_stresses(parts, swing),
     ]
     return pd.DataFrame(rows, columns=COLUMNS)
@@ -48,7 +48,7 @@ def flagged(table: pd.DataFrame, end: float, swing: float) -> pd.DataFrame:
     return table.assign(**{LATE: (table[times] > end - swing).any(axis="columns")})
 
 
-def _of(kind: str, table: pd.DataFrame, swing: float) -> Iterator[list]:
+def _of(kind: str, unit: str, table: pd.DataFrame, swing: float) -> Iterator[list]:
     time, values = table.index.to_numpy(), table.to_numpy()
     if not values.size:
         return
@@ -56,7 +56,7 @@ def _of(kind: str, table: pd.DataFrame, swing: float) -> Iterator[list]:
     for i in np.flatnonzero(late(time, values, swing)):
         at = int(np.argmax(np.abs(np.where(last, values[:, i], 0.0))))
         name = str(table.columns[i]).replace("_", " ")
-        yield [kind, name, float(values[at, i]), float(time[at])]
+        yield [kind, name, float(values[at, i]), unit, float(time[at])]
 
 
 def _stresses(parts: PartsFound, swing: float) -> Iterator[list]:
@@ -64,4 +64,5 @@ def _stresses(parts: PartsFound, swing: float) -> Iterator[list]:
         return
     worst = component_table(parts.judged, 1.0)
     for row in worst[worst.time > parts.time[-1] - swing].itertuples():
-        yield ["stress", f"{row.component}, element {row.id}", row.equivalent, row.time]
+        name = f"{row.component}, element {row.id}"
+        yield ["stress", name, row.equivalent, "Pa", row.time]

@@ -23,7 +23,7 @@ class Truncation:
     """What the modes that are left out cost.
 
     Attributes:
-        gears: gear -> expected error of its load.
+        gears: gear that touches the ground -> expected error of its load.
         enough_hz: all modes below it would keep the expected error at the points below
             5 %; None: not known.
     """
@@ -47,15 +47,14 @@ def truncation_line(result: "ProcessResult") -> str:
     """Modes, their errors, what choice would do, in one sentence."""
     n, hz = result.airframe.body.n, result.airframe.highest_hz
     errors, gears = point_errors(result), result.truncation.gears
-    point, gear = (max(found, key=found.__getitem__) for found in (errors, gears))
-    text = (
-        f"{n} elastic modes up to {hz:.0f} Hz: accelerations of the multibody model "
-        f"{_percent(errors[point])} off at the worst point "
-        f"({point.replace('_', ' ')}), gear loads expected to be "
-        f"{_percent(gears[gear])} off at the worst gear "
-        f"({gear.replace('_', ' ')})"
-    )
-    if max(errors[point], gears[gear]) <= WANTED:
+    text = f"{n} elastic modes up to {hz:.0f} Hz" if n else "rigid airframe"
+    text += f": accelerations of the multibody model {_worst(errors, 'point')}"
+    text += f", vertical gear loads expected to be {_worst(gears, 'gear')}"
+    in_the_air = [g.name for g in result.aircraft.gears if g.name not in gears]
+    if in_the_air:
+        named = ", ".join(in_the_air).replace("_", " ")
+        text += f" ({named}: never on the ground)"
+    if max([*errors.values(), *gears.values()], default=0.0) <= WANTED:
         return f"{text}; both below 5 %"
     enough = result.truncation.enough_hz
     choices = [f"select: below {enough:.0f} Hz"] if enough and enough > hz else []
@@ -91,5 +90,10 @@ def peaks_below(result: "ProcessResult") -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["point", "axis", "peak_low"])
 
 
-def _percent(share: float) -> str:
-    return f"{share:.1%}"
+def _worst(errors: dict[str, float], what: str) -> str:
+    """The largest error and where it is; above 1 a first-order estimate is none."""
+    if not errors:
+        return "right: none is loaded"
+    name = max(errors, key=errors.__getitem__)
+    size = f"{errors[name]:.1%}" if errors[name] <= 1.0 else "more than 100 %"
+    return f"{size} off at the worst {what} ({name.replace('_', ' ')})"

@@ -88,7 +88,7 @@ def test_tables_have_the_agreed_columns(result: ProcessResult, folder: Path) -> 
     assert set(table["modes"]) == {60}
     gears = pd.read_csv(folder / "gears.csv")
     assert list(gears.columns) == [
-        *("run", "gear", "quantity", "peak", "time", "last_swing"),
+        *("run", "gear", "quantity", "peak", "time", "unit", "last_swing"),
     ]
     assert set(gears["quantity"]) == {
         *("tyre_vertical", "tyre_drag", "stroke"),
@@ -102,7 +102,7 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
         *("comparison.csv", "gears.csv", "attachment_loads.csv", "tyres.csv"),
         *("worst_elements.csv", "worst_stresses.csv", "section_loads.csv"),
         *("section_roots.csv", "accelerations_equipment.csv", "stages.csv"),
-        *("late_extremes.csv",),
+        *("late_extremes.csv", "README.txt"),
         "pictures",
         *("struts.csv", "accelerations_multibody.csv", "accelerations_transient.csv"),
     }
@@ -113,13 +113,50 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
         assert again.scenario == result.case.scenario
 
 
+def test_readme_names_each_file(result: ProcessResult, folder: Path) -> None:
+    text = (folder / "README.txt").read_text()
+    named = [line.split("  ")[0] for line in text.split("\n\n")[1].splitlines()]
+    assert set(named) == {path.name for path in folder.iterdir()}
+
+
+def test_every_dataset_and_column_has_its_unit(
+    result: ProcessResult, folder: Path
+) -> None:
+    missing = []
+
+    def look(name: str, item: h5py.Group | h5py.Dataset) -> None:
+        if not isinstance(item, h5py.Dataset):
+            return
+        if "unit" not in item.attrs:
+            units = item.attrs.get("units", ())
+            if len(units) != item.shape[-1] or not all(units):
+                missing.append(name)
+
+    with h5py.File(folder / "results.h5") as file:
+        file.visititems(look)
+    assert not missing
+    for table in folder.glob("*.csv"):
+        frame = pd.read_csv(table)
+        if table.name in ("comparison.csv", "gears.csv"):  # agreed names
+            continue
+        for column in frame.select_dtypes("floating"):
+            plain = column in _PLAIN or column.endswith("_slip")
+            by_row = column in _BY_ROW and frame.unit.notna().all()
+            assert column.endswith("]") or plain or by_row, (table.name, column)
+
+
+_PLAIN = ("margin", "share")
+_BY_ROW = ("value", "min", "max")
+
+
 def test_report_is_self_contained(result: ProcessResult, folder: Path) -> None:
     page = (folder / "report.html").read_text()
     assert "<script" not in page
     assert all(part.startswith("data:") for part in page.split('src="')[1:])
-    # Wing, tailplane, fin, forward and rear part: of two sides one; two pictures each.
-    assert page.count('aria-label="section loads along the') == 5
-    parts = 1 + 2 * 5 + len(result.response)
+    # Wing, tailplane, forward and rear part: of two sides one; two pictures each. What
+    # the fin carries is nought by symmetry.
+    assert page.count('aria-label="section loads along the') == 4
+    parts = 1 + 2 * 4 + len(result.response)
     assert page.count("<svg") == 6 + len(result.response) + parts
     for figure, value in key_figures(result):
         assert figure in page
@@ -290,7 +327,8 @@ def test_extremes_of_all_elements_are_kept(result: ProcessResult, folder: Path) 
     """The envelope of an element bounds what its worst row says."""
     worst = pd.read_csv(folder / "worst_elements.csv")
     assert list(worst.columns) == [
-        *("result", "type", "column", "element", "value", "time", "last_swing"),
+        *("result", "type", "column", "element", "value", "time [s]", "unit"),
+        "last_swing",
     ]
     row = worst[(worst["result"] == "force") & (worst["column"] == "axial")].iloc[0]
     with h5py.File(folder / "results.h5") as file:

@@ -152,8 +152,8 @@ def test_interrupted_writing_leaves_the_old_file(tmp_path: Path) -> None:
 
 def test_csv_tables_read_back(tmp_path: Path, history: LandingHistory) -> None:
     write_history_csv(tmp_path / "tyre.csv", history.tyre)
-    read = pd.read_csv(tmp_path / "tyre.csv", index_col="time")
-    assert read["main_left_vertical"].to_numpy() == pytest.approx(
+    read = pd.read_csv(tmp_path / "tyre.csv", index_col="time [s]")
+    assert read["main_left_vertical [N]"].to_numpy() == pytest.approx(
         history.tyre["main_left"]["vertical"].to_numpy()
     )
     write_csv(tmp_path / "t.csv", pd.DataFrame({"a": [np.nan, 1 / 3, -0.0]}))

@@ -62,10 +62,11 @@ def test_errors_of_gear_loads_follow_the_flexibility_left_out(known) -> None:
     load = {n: np.zeros((1, 6)) for n in nodes}
     load[nodes[1]][0, 2] = 1e4
     closing = {n: 0.2 for n in nodes}
-    none = load_errors(shapes, shapes, load, closing)
+    largest = {n: 1e4 for n in nodes}
+    none = load_errors(shapes, shapes, load, closing, largest)
     assert max(none.values()) < 1e-12
     rigid = shapes.of(np.arange(6))
-    found = load_errors(shapes, rigid, load, closing)
+    found = load_errors(shapes, rigid, load, closing, largest)
     # Static answer of the free airframe in mean axes, by inertia relief.
     pattern = structure.operator([nodes[1]], (3,), frame="basic").toarray()[0] * 1e4
     motion = structure.rigid_body
@@ -76,6 +77,18 @@ def test_errors_of_gear_loads_follow_the_flexibility_left_out(known) -> None:
     u -= motion @ np.linalg.solve(gram, motion.T @ (mass @ u))
     moved = structure.operator([nodes[1]], (1, 2, 3), frame="basic") @ u
     assert found[nodes[1]] == pytest.approx(np.linalg.norm(moved) / 0.2, rel=1e-3)
+    # A gear in the air has no error, one that is hardly loaded none of its own load.
+    lightly = load_errors(
+        shapes, rigid, load, {**closing, nodes[0]: 1e-6}, {**largest, nodes[0]: 0.0}
+    )
+    assert lightly == {n: found[n] for n in nodes if n != nodes[0]}
+    stiffness = 1e4 / 0.2
+    for closed in (1e-3, 1e-5):
+        touched = {**largest, nodes[0]: stiffness * closed}
+        lightly = load_errors(
+            shapes, rigid, load, {**closing, nodes[0]: closed}, touched
+        )
+        assert lightly[nodes[0]] == pytest.approx(10.0 * found[nodes[0]])
 
 
 def test_low_pass_keeps_what_is_below_and_takes_what_is_above() -> None:
