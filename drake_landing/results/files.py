@@ -126,7 +126,9 @@ def _dataset(group: h5py.Group, name: str, values: npt.ArrayLike, unit: str) -> 
 
 def _name_units(file: h5py.File) -> None:
     """Units of the extremes of element results, one per column."""
-    for table in file.get("envelope", {}).values():
+    if "envelope" not in file:
+        return
+    for table in file["envelope"].values():
         result = table.name.rsplit("_", 1)[-1]
         for kind, group in table.items():
             columns = [str(c) for c in group.attrs["columns"]]

@@ -55,7 +55,8 @@ def of_quantities(table: pd.DataFrame) -> pd.Series:
     """Unit of each row of a table by its column `quantity`, if it has rows."""
     if "quantity" not in table:
         return pd.Series(dtype=object)
-    return table["quantity"].map(_QUANTITIES).fillna("")
+    units = [_QUANTITIES.get(str(quantity), "") for quantity in table["quantity"]]
+    return pd.Series(units, index=table.index, dtype=object)
 
 
 def of_element_results(table: pd.DataFrame) -> pd.Series:
