@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+import numpy as np
 import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
@@ -53,6 +54,25 @@ class FreeSet:
         model, choice = self.model.under(subcase), ConstraintChoice.of(subcase)
         same = model is self.model and choice == self.choice
         return self if same else FreeSet(model, choice)
+
+    def holding(self, rows: Int64, motions: Float64) -> FreeSet:
+        """The same with some freedoms at zero, which stops motions of no consequence.
+
+        Args:
+            rows: (r,) positions in the f-set.
+            motions: (f, r) without stiffness and mass, independent on these rows.
+        """
+        own = self.support
+        keep = np.setdiff1d(np.arange(len(own.elimination.f)), rows)
+        held = FreeSet(self.model, self.choice)
+        held.support = replace(
+            own,
+            elimination=own.elimination.with_fixed(own.elimination.f[rows]),
+            stiffness=sp.csr_matrix(own.stiffness[keep][:, keep]),
+        )
+        along = np.linalg.solve(motions[rows], self.rigid_body[rows])
+        held.rigid_body = (self.rigid_body - motions @ along)[keep]
+        return held
 
     @cached_property
     def support(self) -> Support:

@@ -15,11 +15,12 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
+from scipy.linalg import qr
 
 from fem.algebra.damping import Damping
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.arrays import Float64, Int64
-from fem.constraints.autospc import Singularities
+from fem.constraints.autospc import Singularities, grouped
 from fem.constraints.elimination import Elimination
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -75,6 +76,30 @@ class Structure:
     def with_subcase(self, subcase: Subcase) -> Structure:
         """The same model under another subcase; what does not change is shared."""
         return Structure(self.deck, subcase, free=self._free.under(subcase))
+
+    def without_massless_motions(self) -> tuple[Structure, list[str]]:
+        """The structure with motions that have neither stiffness nor mass held.
+
+        They take no part in any vibration. With PARAM,AUTOSPC,NO nothing is held.
+
+        Returns:
+            The structure, and a notice that names the freedoms; itself and none, where
+            there are no such motions.
+        """
+        found = [] if self.autospc is None else self.mechanisms(dynamic=True)
+        if not found:
+            return self, []
+        motions = np.concatenate([m.motions for m in found], axis=1)
+        count = motions.shape[1]
+        pivots = qr(motions.T, mode="r", pivoting=True)[-1]
+        rows = np.sort(np.asarray(pivots, np.int64)[:count])
+        free = self._free.holding(rows, motions)
+        names = grouped([self.label(int(row)) for row in rows], 8)
+        text = f"{count} motion{'s' if count > 1 else ''} without stiffness and mass"
+        return (
+            Structure(self.deck, self.subcase, free=free),
+            [f"{text} held at {names} (AUTOSPC)"],
+        )
 
     # -- the model ------------------------------------------------------------------
 

@@ -49,7 +49,7 @@ def modes_of(model: Structure, options: Options) -> tuple[AnalysisModel, Modes]:
     count, band = request(card)
     report = options.console.progress("modes")
 
-    def solve() -> tuple[AnalysisModel, Modes]:
+    def solve(model: Structure) -> tuple[AnalysisModel, Modes]:
         reduced = analysis_model(model, solver=options.solver)
         return reduced, normal_modes(
             reduced.stiffness,
@@ -61,9 +61,20 @@ def modes_of(model: Structure, options: Options) -> tuple[AnalysisModel, Modes]:
             progress=report,
         )
 
+    def solve_or_hold() -> tuple[AnalysisModel, Modes]:
+        try:
+            return solve(model)
+        except (ModesError, SingularMatrixError):
+            held, notices = model.without_massless_motions()
+            if held is model:
+                raise
+            for notice in notices:
+                options.console.say(f"notice: {notice}")
+            return solve(held)
+
     try:
         return model.guarded(
-            solve, dynamic=True, error=(ModesError, SingularMatrixError)
+            solve_or_hold, dynamic=True, error=(ModesError, SingularMatrixError)
         )
     except ModesError as error:
         raise InputError(f"{model.deck.path}: {error}") from None

@@ -123,7 +123,7 @@ RECORDS = (
     Card(
         name="CROD",
         group=_GROUP,
-        fields="eid:i pid:i=eid>PROD g1:i>GRID g2:i>GRID",
+        fields="(eid:i pid:i=eid>PROD g1:i>GRID g2:i>GRID)",
         finish=finish.crod,
         more="mid:i>MAT1 a:f[L2] j:f[L4] c:f[L] nsm:f[M/L]",
         ids="own",
@@ -150,7 +150,7 @@ RECORDS = (
     Card(
         name="CTUBE",
         group=_GROUP,
-        fields="eid:i pid:i=eid>PTUBE g1:i>GRID g2:i>GRID",
+        fields="(eid:i pid:i=eid>PTUBE g1:i>GRID g2:i>GRID)",
         ids="own",
         element=Element(
             reader="lines.rod:read_ctube",
@@ -162,7 +162,7 @@ RECORDS = (
     Card(
         name="CVISC",
         group=_GROUP,
-        fields="eid:i pid:i=eid>PVISC g1:i>GRID g2:i>GRID",
+        fields="(eid:i pid:i=eid>PVISC g1:i>GRID g2:i>GRID)",
         ids="own",
         element=Element(
             reader="scalars.visc:read_cvisc",

@@ -54,14 +54,14 @@ RECORDS = (
     Card(
         name="CMASS3",
         group=_GROUP,
-        fields=f"eid:i pid:i=eid>PMASS {_SCALAR}",
+        fields=f"(eid:i pid:i=eid>PMASS {_SCALAR})",
         finish=finish.scalar,
         table="CMASS1",
     ),
     Card(
         name="CMASS4",
         group=_GROUP,
-        fields=f"eid:i m:f {_SCALAR}",
+        fields=f"(eid:i m:f {_SCALAR})",
         finish=finish.scalar,
         table="CMASS2",
     ),

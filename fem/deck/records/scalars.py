@@ -61,7 +61,7 @@ RECORDS = (
     Card(
         name="CELAS3",
         group=_GROUP,
-        fields=f"eid:i pid:i=eid>PELAS {_SCALAR}",
+        fields=f"(eid:i pid:i=eid>PELAS {_SCALAR})",
         finish=finish.scalar,
         table="CELAS1",
         element=_spring(13),
@@ -69,7 +69,7 @@ RECORDS = (
     Card(
         name="CELAS4",
         group=_GROUP,
-        fields=f"eid:i k:f {_SCALAR}",
+        fields=f"(eid:i k:f {_SCALAR})",
         finish=finish.celas4,
         table="CELAS2",
         element=_spring(14),
@@ -101,7 +101,7 @@ RECORDS = (
     Card(
         name="CDAMP3",
         group=_GROUP,
-        fields=f"eid:i pid:i=eid>PDAMP {_SCALAR}",
+        fields=f"(eid:i pid:i=eid>PDAMP {_SCALAR})",
         finish=finish.scalar,
         table="CDAMP1",
         element=_damper(22),
@@ -109,7 +109,7 @@ RECORDS = (
     Card(
         name="CDAMP4",
         group=_GROUP,
-        fields=f"eid:i b:f {_SCALAR}",
+        fields=f"(eid:i b:f {_SCALAR})",
         finish=finish.scalar,
         table="CDAMP2",
         element=_damper(23),

@@ -92,21 +92,18 @@ class CurvedShell(Shell):
     `section` and `angle` are those of the centre.
 
     Attributes:
+        surface: its natural coordinates.
         nodes: (e, n, 3) grids.
         corner_thickness: (e, c).
         theta: (e,) rad, from the first tangent to the material x axis.
         towards: (e, 3) direction of the material x axis instead; NaN where none is.
     """
 
+    surface: Surface
     nodes: Float64
     corner_thickness: Float64
     theta: Float64
     towards: Float64
-
-    @property
-    def surface(self) -> Surface:
-        """Its natural coordinates."""
-        return SURFACES[self.card]
 
     @cached_property
     def directors(self) -> Float64:

@@ -25,9 +25,11 @@ if TYPE_CHECKING:
 def read_curved(deck: "Deck", points: Points, card: str) -> list[CurvedShell]:
     """Blocks of one card: those with PSHELL, then those with PCOMP.
 
+    Elements that lack the same mid-sides are together.
+
     Raises:
-        InputError: undefined references, mid-sides that are left out, shapes that
-            cannot be, missing thickness; all of them.
+        InputError: undefined references, shapes that cannot be, missing thickness; all
+            of them.
     """
     rows = table(deck, card).sort_values("eid", ignore_index=True)
     if rows.empty:
@@ -35,15 +37,21 @@ def read_curved(deck: "Deck", points: Points, card: str) -> list[CurvedShell]:
     check_properties(deck, rows, card)
     properties = read_shell_properties(deck, rows["pid"])
     kind = np.array([properties[int(p)].card for p in rows["pid"]])
+    topology = CARDS[card].topology
+    assert topology is not None
+    there = grids_of(rows, topology)[:, topology.corners :] > 0
     blocks, problems = [], []
     for name in ("PSHELL", "PCOMP"):
-        part = rows[kind == name].reset_index(drop=True)
-        if part.empty:
-            continue
-        try:
-            blocks.append(_block(deck, points, part, card, properties))
-        except InputError as error:
-            problems += error.problems
+        for present in np.unique(there[kind == name], axis=0):
+            part = rows[(kind == name) & (there == present).all(axis=1)]
+            part = part.reset_index(drop=True)
+            surface = SURFACES[card]
+            if not present.all():
+                surface = surface.without(present.tolist())
+            try:
+                blocks.append(_block(deck, points, part, card, surface, properties))
+            except InputError as error:
+                problems += error.problems
     if problems:
         raise InputError(problems)
     return blocks
@@ -54,15 +62,13 @@ def _block(
     points: Points,
     rows: pd.DataFrame,
     card: str,
+    surface: Surface,
     properties: dict[int, ShellProperty],
 ) -> CurvedShell:
     topology = CARDS[card].topology
     assert topology is not None
-    grids, surface = grids_of(rows, topology), SURFACES[card]
-    corners = surface.corners
-    _refuse(rows, card, (grids <= 0).any(axis=1), "mid-sides are left out, not "
-            f"supported here; expected {len(surface.nodes)} grids")  # fmt: skip
-    at = points.rows(grids)
+    grids, corners = grids_of(rows, topology), surface.corners
+    at = points.rows(grids[:, grids[0] > 0])
     nodes = points.xyz[at]
     bad, texts = bad_facets(nodes[:, :corners])
     if len(bad):
@@ -75,10 +81,14 @@ def _block(
     thickness = corner_thickness(rows, card, used, which, corners)
     theta, towards = _material(points, rows, nodes)
     centre = base(surface, nodes, surface.results[:1])
+    normal = _is_normal(towards, centre.normal[:, 0])
+    # Isotropic elements take the first tangent, which changes nothing.
+    isotropic = np.array([p.isotropic for p in used])[which]
+    towards[normal & isotropic] = np.nan
     angle = material_angle(centre, theta, towards)[:, 0]
-    tilt = np.abs(np.einsum("ei,ei->e", towards, centre.normal[:, 0]))
-    _refuse(rows, card, tilt > 1.0 - 1e-12, "the x axis of its material system MCID is "
-            "normal to the element, expected a direction in its plane")  # fmt: skip
+    text = "the x axis of its material system MCID is normal to the element"
+    text += ", expected a direction in its plane"
+    _refuse(rows, card, normal & ~isotropic, text)
     return CurvedShell(
         card=card,
         id=rows["eid"].to_numpy(np.int64),
@@ -93,11 +103,17 @@ def _block(
         properties=used,
         which=which,
         angle=angle,
+        surface=surface,
         nodes=nodes,
         corner_thickness=thickness,
         theta=theta,
         towards=towards,
     )
+
+
+def _is_normal(towards: Float64, normal: Float64) -> Bool:
+    """(e,) whether directions (e, 3) have no part in the surface; NaN has one."""
+    return np.abs(np.einsum("ei,ei->e", towards, normal)) > 1.0 - 1e-12
 
 
 def _refuse(rows: pd.DataFrame, card: str, bad: Bool, text: str) -> None:

@@ -3,7 +3,8 @@
 Natural coordinates run from -1 to 1 in quadrilaterals, from 0 to 1 in triangles.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -53,6 +54,8 @@ class Surface:
         mean_shear: the mean shear is that of the displacements.
         stress: (g, 2) points of which printed results are extrapolated by `printed`.
         even: element axes lie evenly about both tangents.
+        whole: (w, 2) nodes of the interpolation where mid-sides are left out, and
+        follow: (w, n) how all of these follow those that are there; None: all are.
     """
 
     nodes: Float64
@@ -69,6 +72,24 @@ class Surface:
     stress: Float64
     printed: Powers
     even: bool
+    whole: Float64 | None = None
+    follow: Float64 | None = None
+
+    def without(self, present: Sequence[bool]) -> "Surface":
+        """The surface without some of its mid-sides: their edges stay straight.
+
+        Args:
+            present: for each mid-side, whether it is there.
+        """
+        count = self.corners
+        kept = [*range(count), *(count + np.flatnonzero(present))]
+        follow = np.eye(len(self.nodes))
+        for k in np.flatnonzero(~np.asarray(present, bool)):
+            follow[count + k] = 0.0
+            follow[count + k, [k, (k + 1) % count]] = 0.5
+        return replace(
+            self, nodes=self.nodes[kept], whole=self.nodes, follow=follow[:, kept]
+        )
 
     @property
     def corners(self) -> int:
@@ -83,12 +104,18 @@ class Surface:
 
     def values(self, p: Float64) -> Float64:
         """(q, n) shape functions."""
-        return fitted(self.powers, self.nodes, p)
+        return monomials(self.powers, p) @ self._coefficients
 
     def slopes(self, p: Float64) -> Float64:
         """(q, 2, n) their derivatives."""
-        at_nodes = monomials(self.powers, self.nodes)
-        return _slopes(self.powers, p) @ np.linalg.inv(at_nodes)
+        return _slopes(self.powers, p) @ self._coefficients
+
+    @cached_property
+    def _coefficients(self) -> Float64:
+        """(m, n) of the shape functions."""
+        whole = self.nodes if self.whole is None else self.whole
+        inverse = np.linalg.inv(monomials(self.powers, whole))
+        return inverse if self.follow is None else inverse @ self.follow
 
     def of_corners(self, p: Float64) -> Float64:
         """(q, c) linear shape functions of the corners."""

@@ -194,10 +194,8 @@ def test_pressure_is_in_equilibrium_with_the_supports(results):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("CQUAD8,1,1,1,2,3,4,5,6\n", "CQUAD8 1: mid-sides are left out"),
         ("CQUAD8,1,1,1,2,3,4,7,6,+\n+,5,8\n", "CQUAD8 1: it is folded over"),
         ("CQUAD8,1,1,1,2,4,3,5,6,+\n+,7,8\n", "CQUAD8 1: .*out of order"),
-        ("CTRIA6,1,1,1,2,4,5,9\n", "CTRIA6 1: mid-sides are left out"),
         ("CTRIA6,1,5,1,2,4,5,9,8\n", "PSHELL or PCOMP 5 is not defined"),
         ("CQUAD8,1,1,1,2,3,4,5,6,+\n+,7,77\n", "CQUAD8 1: grid 77 is not defined"),
     ],
@@ -205,3 +203,63 @@ def test_pressure_is_in_equilibrium_with_the_supports(results):
 def test_impossible_elements_are_refused(model, text, message):
     with pytest.raises(InputError, match=message):
         model(GRIDS + text + "PSHELL,1,1,.02,1,,1\n" + STEEL)
+
+
+@pytest.mark.parametrize("grids", ["5,,+\n+,7,8", ",6,+\n+,,", ",,+\n+,,"])
+def test_a_mid_side_left_out_follows_its_corners(model, grids):
+    """On a plane the element with that mid-side tied to the mean of its corners."""
+    flat = "".join(
+        f"GRID,{line.split(',')[1]},,{','.join(line.split(',')[3:5])},0.\n"
+        for line in GRIDS.splitlines()
+    ).replace("GRID,6,,1.15,.5", "GRID,6,,1.1,.5")
+    # In the middle of their edges, as the element has them.
+    flat = flat.replace("GRID,5,,.52,-.03", "GRID,5,,.5,.05")
+    flat = flat.replace("GRID,7,,.5,1.02", "GRID,7,,.55,.95")
+    flat = flat.replace("GRID,8,,-.08,.5", "GRID,8,,-.05,.5")
+    flat = flat.replace("GRID,9,,.56,.47,0.\n", "")
+    shell = "PARAM,K6ROT,0.\nPSHELL,1,1,.02,1,,1\n" + STEEL
+    given = grids.replace("+\n+,", "").split(",")
+    (whole,) = model(flat + element("CQUAD8") + shell).blocks
+    made = model(flat + f"CQUAD8,1,1,1,2,3,4,{grids},,,,,20.,.05\n" + shell)
+    (part,) = made.blocks
+    follow = np.zeros((8, 4 + sum(map(bool, given))))
+    follow[:4, :4] = np.eye(4)
+    at = 4
+    for k, grid in enumerate(given):
+        if grid:
+            follow[4 + k, at], at = 1.0, at + 1
+        else:
+            follow[4 + k, [k, (k + 1) % 4]] = 0.5
+    tie = np.kron(follow, np.eye(6))
+    expected = tie.T @ whole.stiffness()[0] @ tie
+    size = np.abs(expected).max()
+    np.testing.assert_allclose(part.stiffness()[0], expected, atol=1e-10 * size)
+    total = part.mass(coupled=False)[0][::6, ::6].sum()
+    assert total == pytest.approx(whole.mass(coupled=False)[0][::6, ::6].sum())
+
+
+def test_triangles_without_mid_sides_are_sound(model):
+    made = model(GRIDS + "CTRIA6,1,1,1,2,4,,9\nPSHELL,1,1,.02,1,,1\n" + STEEL)
+    (block,) = made.blocks
+    stiffness = block.stiffness()[0]
+    value = np.linalg.eigvalsh(stiffness)
+    rigid = rigid_modes(made.points, np.zeros(3))[block.dof[0]]
+    assert block.dof.shape == (1, 24)
+    assert np.abs(stiffness @ rigid).max() < 1e-11 * value[-1]
+    assert value[6] > 1e-9 * value[-1]
+
+
+@pytest.mark.parametrize("card", ["CQUAD8,1,1,1,2,3,4,5,6,+\n+,7,8,,,,,3",
+                                  "CTRIA6,1,1,1,2,4,5,9,8,+\n+,3"])  # fmt: skip
+def test_the_material_axis_of_an_isotropic_element_may_be_its_normal(model, card):
+    flat = "".join(
+        ",".join([*line.split(",")[:5], "0."]) + "\n" for line in GRIDS.splitlines()
+    )
+    system = "CORD2R,3,,0.,0.,0.,1.,0.,0.,+\n+,0.,0.,1.\n"  # x along z of the deck
+    shell = "PSHELL,1,1,.02,1,,1\n" + STEEL
+    (with_mcid,) = model(flat + system + card + "\n" + shell).blocks
+    (plain,) = model(flat + card[:-1] + "\n" + shell).blocks
+    np.testing.assert_array_equal(with_mcid.stiffness(), plain.stiffness())
+    laminate = "PCOMP,1\n+,2,.02,0.\nMAT8,2,1.+11,1.+10,.3,5.+9,,,7800.\n"
+    with pytest.raises(InputError, match="normal to the element"):
+        model(flat + system + card + "\n" + laminate)

@@ -339,3 +339,35 @@ def test_design_relations_that_cannot_be_followed_are_refused(solve, relation, w
     card = relation.split(",")[0]
     file = solve(200, case, bulk, ignore=[card])
     assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
+
+
+def test_two_elements_on_a_card_are_both_read(solve):
+    """Three masses in a row, and two rods: eigenvalues by hand."""
+    bulk = (
+        "EIGRL,1,,,8\nSPOINT,1,2,3\nCELAS4,1,100.,0,1,2,200.,1,2\n"
+        "CELAS3,3,7,2,3,4,7,3,0\nPELAS,7,300.\nCMASS4,11,1.,1,,12,2.,2\n"
+        "CMASS3,13,9,3,,14,9,3\nPMASS,9,1.5\n"
+        "GRID,11\nGRID,12,,1.\nGRID,13,,2.\nCROD,21,1,11,12,22,1,12,13\n"
+        "PROD,1,1,1.\nMAT1,1,1.,,.3,1.\nSPC1,1,123,11\nSPC1,1,23,12,13\n"
+    )
+    file = solve(103, "METHOD = 1\nSPC = 1", bulk)
+    k = np.array([[300.0, -200, 0], [-200, 500, -300], [0, -300, 600]])
+    springs = np.linalg.eigvals(k / np.array([[1.0], [2.0], [3.0]]))
+    # Lumped: k [2 -1; -1 1], m diag(1, 1/2).
+    rods = np.linalg.eigvals(np.array([[2.0, -1.0], [-2.0, 2.0]]))
+    hertz = np.sqrt(np.sort(np.concatenate([springs, rods]))) / (2 * np.pi)
+    assert file["modes/frequency_hz"][:] == pytest.approx(hertz, rel=1e-9)
+
+
+def test_motions_without_stiffness_and_mass_are_held_in_modes(solve):
+    """A free bar spins about its axis without either; left is the axial mode."""
+    bulk = (
+        "EIGRL,1,,,8\nMAT1,2,7.+10,,.3,2700.\nPBARL,1,2,,TUBE\n,.2,.18\n"
+        "GRID,1\nGRID,2,,2.\nCBAR,1,1,1,2,0.,0.,1.\n"
+    )
+    file = solve(103, "METHOD = 1", bulk)
+    hertz = file["modes/frequency_hz"][:]
+    # Two halves of the mass on a spring E A / L: omega² = 4 E / (rho L²).
+    axial = np.sqrt(4.0 * 7e10 / 2700.0 / 4.0) / (2.0 * np.pi)
+    assert hertz[:5] == pytest.approx(np.zeros(5), abs=1e-9)
+    assert hertz[5:] == pytest.approx([axial])
