@@ -24,6 +24,7 @@ from pydantic import (
 )
 
 from drake_landing.case.bushing import Bushing
+from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
@@ -343,6 +344,7 @@ class Case(Section):
     simulation: Simulation = Simulation()
     transient: Transient = Transient()
     parts: Parts = Parts()
+    conditions: Conditions = Conditions()
     _places: Places = PrivateAttr(default=Places())
 
     @property

@@ -1,0 +1,1 @@
+"""Ground-load conditions of the rules as balanced static cases of the full model."""

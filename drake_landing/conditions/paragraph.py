@@ -1,0 +1,105 @@
+"""A paragraph of the rules: what it asks for, what the program does, what it needs."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from drake_landing.conditions.ground import BookCase, Gear, GroundAircraft, Weight
+
+Mark = Literal["read", "secondary", "memory", "-"]
+Cases = Callable[[GroundAircraft], Iterator[BookCase]]
+Need = Callable[[GroundAircraft], str]
+
+ANY: tuple[Weight, ...] = ("landing", "take_off")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Paragraph:
+    """One paragraph.
+
+    Attributes:
+        number: 25.479(d)(1).
+        title: a few words.
+        rule: what it asks for, in our own words.
+        does: what the program does with it.
+        mark: how its text is known: read, from a secondary source, or from memory.
+        cases: its static load cases; None: it has none here.
+        presets: of `scenario`, that show it dynamically.
+        needs: what an aircraft must have; the first that is missing is named.
+        design: weights at which it applies.
+    """
+
+    number: str
+    title: str
+    rule: str
+    does: str
+    mark: Mark = "read"
+    cases: Cases | None = None
+    presets: tuple[str, ...] = ()
+    needs: tuple[Need, ...] = ()
+    design: tuple[Weight, ...] = ANY
+
+    def missing(self, aircraft: GroundAircraft) -> str:
+        """Why the static cases cannot be built; empty: they can."""
+        if aircraft.design not in self.design:
+            words = {"landing": "design landing weight", "take_off": "ramp weight"}
+            return f"asked for at the {words[self.design[0]]}"
+        return next((text for need in self.needs if (text := need(aircraft))), "")
+
+
+def needs_mains(aircraft: GroundAircraft) -> str:
+    """Main gears."""
+    return "" if aircraft.mains else "no main gear"
+
+
+def needs_brakes(aircraft: GroundAircraft) -> str:
+    """Brakes on a main gear."""
+    braked = any(gear.brake_torque for gear in aircraft.mains)
+    return "" if braked else "no main gear has brakes (gears.<name>.brake)"
+
+
+def needs_nose(aircraft: GroundAircraft) -> str:
+    """A nose gear."""
+    return "" if aircraft.nose else "no nose gear"
+
+
+def needs_tail(aircraft: GroundAircraft) -> str:
+    """A tail wheel."""
+    return "" if aircraft.tail else "no tail wheel"
+
+
+def needs_sides(aircraft: GroundAircraft) -> str:
+    """Main gears on both sides."""
+    sides = {aircraft.side(gear) for gear in aircraft.mains}
+    return "" if {-1.0, 1.0} <= sides else "no main gears on both sides"
+
+
+def needs_largest(aircraft: GroundAircraft) -> str:
+    """Largest vertical loads of the landing."""
+    known = all(gear.largest is not None for gear in aircraft.mains)
+    return "" if known else "the largest vertical loads of the landing are not known"
+
+
+def needs_tail_down(aircraft: GroundAircraft) -> str:
+    """The same, tail-down."""
+    known = all(gear.tail_down is not None for gear in aircraft.mains)
+    return "" if known else "the largest vertical loads tail-down are not known"
+
+
+def needs_steering(aircraft: GroundAircraft) -> str:
+    """Torque of the steering."""
+    known = aircraft.steering_torque is not None
+    return "" if known else "no steering torque (conditions.steering_torque)"
+
+
+def needs_several_wheels(aircraft: GroundAircraft) -> str:
+    """A main gear with more than one wheel."""
+    several = any(gear.wheels > 1 for gear in aircraft.mains)
+    return "" if several else "no main gear has more than one wheel"
+
+
+def largest(gear: Gear, *, of: str = "largest") -> float:
+    """Its largest vertical load, N; `needs_largest` sees to it that it is known."""
+    value = getattr(gear, of)
+    assert value is not None, f"{gear.name}: {of}"
+    return float(value)
