@@ -87,6 +87,25 @@ def run(
 
 
 @app.command()
+def conditions(
+    case: Annotated[Path, typer.Argument(help="case file (YAML)")],
+    out: Annotated[Path | None, _out("out/conditions/<name of the case>")] = None,
+) -> None:
+    """Ground-load conditions of CS-25 or CS-23 as balanced static cases."""
+    from drake_landing.case.reading import load_case
+    from drake_landing.output import claim
+    from drake_landing.process.conditions import run_conditions, summary
+    from drake_landing.progress import reporter
+
+    loaded = load_case(case)
+    folder = out or Path("out", "conditions", loaded.name)
+    folder = claim(folder, f"conditions {loaded.name}")
+    with reporter() as progress:
+        result = run_conditions(loaded, folder, progress)
+    print(summary(result, loaded, folder))
+
+
+@app.command()
 def check(
     case: Annotated[
         Path | None, typer.Argument(help="case or campaign file (YAML)")

@@ -158,6 +158,19 @@ def check_nodes(structure: Structure, aircraft: Aircraft) -> None:
         )
 
 
+def rigid_airframe(
+    structure: Structure, nodes: Iterable[int], R_AB: Float64
+) -> ModalBody:
+    """The airframe without elastic modes, A; arguments as in `modal_body`."""
+    basis = Basis(
+        frequency_hz=np.zeros(0),
+        shape=np.zeros((structure.size, 0)),
+        rigid=structure.rigid_body,
+        freedoms=structure.size,
+    )
+    return modal_body(structure, basis, nodes, R_AB)
+
+
 def modal_body(
     structure: Structure, basis: Basis, nodes: Iterable[int], R_AB: Float64
 ) -> ModalBody:

@@ -10,7 +10,7 @@ Displacements are those of the screening, so that the static stresses agree with
 screened ones to rounding, and with the direct transient within the screening's error.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,17 +19,8 @@ import numpy as np
 
 from drake_landing.campaign.setup import Prepared
 from drake_landing.campaign.task import case_file
-from drake_landing.transient.deck import model_selections
-from fem.algebra.statics import determinate_rows
+from drake_landing.transient.static_deck import StaticCase, write_static_deck
 from fem.arrays import Float64
-from fem.deck.sections import split_sections
-from fem.deck.source import read_source
-from fem.deck.units import units_of
-from fem.files.aside import written_aside
-from fem.files.deck_writer import real
-
-_LEAST = 1e-9  # of the largest force or moment: below, nothing is written
-_FIRST_ID = 900001
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,64 +71,19 @@ def static_deck(
         instants: which.
         path: of the deck.
     """
-    loads = [equivalent_loads(own, displacement_at(own, folder, i)) for i in instants]
-    with written_aside(path) as part, part.open("w", encoding="utf-8") as file:
-        file.writelines(line + "\n" for line in _lines(own, instants, loads))
-
-
-def _lines(
-    own: Prepared, instants: Sequence[Instant], loads: Iterable[Float64]
-) -> Iterator[str]:
-    structure, source = own.airframe.structure, own.aircraft.deck
-    sections = split_sections(read_source(source).lines, str(source))
-    selections = model_selections(structure.subcase)
-    yield from ("SOL 101", "CEND", "TITLE = EQUIVALENT STATIC CASES OF LANDINGS")
-    yield from (s for s in selections if not s.startswith("SPC"))
-    spc = _FIRST_ID
-    yield f"SPC = {spc}"
-    yield from ("DISPLACEMENT = ALL", "STRESS = ALL", "FORCE = ALL")
-    for k, instant in enumerate(instants):
-        yield f"SUBCASE {k + 1}"
-        yield f"  SUBTITLE = CASE {instant.case} AT {instant.time:.4f} S"
-        yield f"  LABEL = {instant.why.upper()[:60]}"
-        yield f"  LOAD = {spc + 1 + k}"
-    yield "BEGIN BULK"
-    yield "$ A determinate support: its reactions vanish."
-    yield from _support(own, spc, len(instants))
-    for k, load in enumerate(loads):
-        yield from _cards(own, spc + 1 + k, load)
-    yield "$ The model"
-    for line in sections.bulk:
-        if line.text[:8].upper().strip() == "ENDDATA":
-            break
-        yield line.text
-    yield "ENDDATA"
-
-
-def _support(own: Prepared, sid: int, count: int) -> Iterator[str]:
-    """Six freedoms that hold the model, beside whatever the deck holds."""
-    structure = own.airframe.structure
-    held, other = sid, structure.subcase.spc
-    if other:
-        held = sid + 1 + count
-        yield f"SPCADD,{sid},{held},{other}"
-    rows = structure.elimination.f[determinate_rows(structure.rigid_body)]
-    for row in rows.tolist():
-        grid, component = divmod(int(row), 6)
-        yield f"SPC1,{held},{component + 1},{structure.points.grid_id[grid]}"
-
-
-def _cards(own: Prepared, sid: int, load: Float64) -> Iterator[str]:
-    """FORCE and MOMENT in displacement frames, in the units of the deck."""
-    points, units = own.airframe.structure.points, units_of(own.aircraft.units)
-    grids = len(points.grid_id)
-    table = load[: 6 * grids].reshape(grids, 2, 3).copy()
-    table /= np.array([units.force, units.moment])[:, None]
-    frames = own.airframe.structure.deck.cards["GRID"].set_index("id")["cd"]
-    for kind, values in (("FORCE", table[:, 0]), ("MOMENT", table[:, 1])):
-        size = np.abs(values).max(axis=1)
-        for i in np.flatnonzero(size > _LEAST * size.max(initial=0.0)).tolist():
-            grid = int(points.grid_id[i])
-            x, y, z = (real(float(v), 16) for v in values[i])
-            yield f"{kind + '*':8}{sid:16d}{grid:16d}{int(frames[grid]):16d}{'1.':>16}"
-            yield f"{'*':8}{x:>16}{y:>16}{z:>16}"
+    cases = [
+        StaticCase(
+            subtitle=f"case {i.case} at {i.time:.4f} s",
+            label=i.why,
+            load=equivalent_loads(own, displacement_at(own, folder, i)),
+        )
+        for i in instants
+    ]
+    write_static_deck(
+        path,
+        own.airframe.structure,
+        own.aircraft.deck,
+        own.aircraft.units,
+        cases,
+        title="equivalent static cases of landings",
+    )

@@ -17,24 +17,28 @@ class Conditions(Section):
     )
     weight: Literal["landing", "take_off"] = Field(
         default="take_off",
-        description="which design weight the mass of the case is: landing, or take-off "
-        "(ramp); sets the sink rate and which paragraphs apply",
+        description="which design weight the mass of the case is: landing, or "
+        "take-off (ramp); sets the sink rate and which paragraphs apply",
     )
     sink_rate: float | None = Field(
         default=None,
         gt=0,
         le=10,
-        description="of the landings that give the largest vertical loads, m/s; default "
-        "the rule's: 3.048 at the landing, 1.8288 at the take-off weight; CS-23 "
-        "4.4 (W/S)^1/4 ft/s",
+        description="of the landings that give the largest vertical loads, m/s; "
+        "default the rule's: 3.048 at the landing, 1.8288 at the take-off weight; "
+        "CS-23 4.4 (W/S)^1/4 ft/s",
     )
     forward_speed: float = number("of these landings", "m/s", 67.0, gt=0, le=150)
-    level_pitch: float = number("of the landing on main wheels", "deg", 2.0, ge=-20, le=30)
-    tail_down_pitch: float = number("of the tail-down landing", "deg", 10.0, ge=0, le=30)
+    level_pitch: float = number(
+        "of the landing on main wheels", "deg", 2.0, ge=-20, le=30
+    )
+    tail_down_pitch: float = number(
+        "of the tail-down landing", "deg", 10.0, ge=0, le=30
+    )
     vertical: dict[str, float] = Field(
         default={},
-        description="gear -> its largest vertical load in the level landing, N, instead "
-        "of landings; a nose gear's is that of the landing on all gears",
+        description="gear -> its largest vertical load in the level landing, N, "
+        "instead of landings; a nose gear's is that of the landing on all gears",
     )
     roles: dict[str, Role] = Field(
         default={},
@@ -47,8 +51,8 @@ class Conditions(Section):
         default=None,
         ge=0,
         lt=1,
-        description="ratio of pitching about the main wheels, of 25.493(e); default its "
-        "f = 2",
+        description="ratio of pitching about the main wheels, of 25.493(e); default "
+        "its f = 2",
     )
     wing_area: float | None = Field(default=None, gt=0, description="m², for CS-23")
     stall_speed: float | None = Field(

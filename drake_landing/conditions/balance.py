@@ -126,9 +126,13 @@ class Holds:
             return found
         N = np.array(free).T
         yielding = self.seen + np.diag(self.compliance)
-        return found - N @ np.linalg.lstsq(
-            N.T @ yielding @ N, N.T @ (yielding @ found), rcond=1e-12
-        )[0]
+        return (
+            found
+            - N
+            @ np.linalg.lstsq(
+                N.T @ yielding @ N, N.T @ (yielding @ found), rcond=1e-12
+            )[0]
+        )
 
 
 def holds(structure: Structure, gears: Sequence[LandingGear]) -> Holds:

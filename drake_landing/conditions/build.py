@@ -118,9 +118,7 @@ def _role(name: str, rest: Posed, conditions: Conditions) -> Role:
     return "main"
 
 
-def _given(
-    gears: Sequence[LandingGear], conditions: Conditions, peaks: Peaks
-) -> Peaks:
+def _given(gears: Sequence[LandingGear], conditions: Conditions, peaks: Peaks) -> Peaks:
     """Loads that the case gives stand for all landings."""
     given = {
         g.name: given_peak(g, conditions.vertical[g.name])
@@ -185,5 +183,3 @@ def _torque(brake: Brake | None) -> float:
     if brake.torque is not None:
         return brake.torque
     return max(torque for _, torque in brake.torque_table or [(0.0, 0.0)])
-
-

@@ -36,8 +36,8 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.473",
         title="landing conditions and assumptions",
-        rule="4.4 (W/S)^¼ ft/s, between 7 and 10; lift two thirds of the weight; n no less "
-        "than 2.67 and on the ground 2.0",
+        rule="4.4 (W/S)^¼ ft/s, between 7 and 10; lift two thirds of the weight; n no "
+        "less than 2.67 and on the ground 2.0",
         does="sink rate of the landing from conditions.wing_area; both least factors",
     ),
     Paragraph(
@@ -59,8 +59,8 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.479(c)",
         title="spin-up, spring-back",
-        rule="by Appendix D, no more than 0.8 of the vertical load; spring-back the same "
-        "forward",
+        rule="by Appendix D, no more than 0.8 of the vertical load; spring-back the "
+        "same forward",
         does="static cases; rational: the landing run",
         cases=cases.spin_up,
         presets=("two_point",),
@@ -87,8 +87,9 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.485",
         title="side load",
-        rule="level, main wheels: n = 1.33 shared equally; 0.5 W inward on one side and "
-        "0.33 W outward on the other (of W, not of the reaction); static deflections",
+        rule="level, main wheels: n = 1.33 shared equally; 0.5 W inward on one side "
+        "and 0.33 W outward on the other (of W, not of the reaction); static "
+        "deflections",
         does="static cases to both sides",
         cases=cases.side,
         needs=(needs_sides,),
@@ -105,8 +106,8 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.497",
         title="tail wheel",
-        rule="obstruction: the tail-down reaction 45° up and aft through the axle; load at "
-        "rest with as much to the side",
+        rule="obstruction: the tail-down reaction 45° up and aft through the axle; "
+        "load at rest with as much to the side",
         does="static cases",
         mark="memory",
         cases=cases.tail_wheel,
@@ -115,8 +116,8 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.499",
         title="nose wheel",
-        rule="2.25 times the load at rest with 0.8 aft, 0.4 forward (axle) or 0.7 to the "
-        "side (ground)",
+        rule="2.25 times the load at rest with 0.8 aft, 0.4 forward (axle) or 0.7 to "
+        "the side (ground)",
         does="static cases",
         cases=cases.nose_wheel,
         needs=(needs_nose,),
@@ -138,16 +139,16 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.507",
         title="jacking",
-        rule="1.35 of the load at rest with 0.4 of it fore, aft and to the side, in all "
-        "combinations",
+        rule="1.35 of the load at rest with 0.4 of it fore, aft and to the side, in "
+        "all combinations",
         does="static cases at the gears; jack pads of the airframe are the user's",
         cases=cases.jacking,
     ),
     Paragraph(
         number="23.509",
         title="towing",
-        rule="n = 1; main gears 0.225 W each, parallel and at 30°; nose or tail 0.3 W, at "
-        "45° 0.15 W; reacted as in 25.509",
+        rule="n = 1; main gears 0.225 W each, parallel and at 30°; nose or tail 0.3 "
+        "W, at 45° 0.15 W; reacted as in 25.509",
         does="static cases, both reactions; the fitting is taken at the axle",
         cases=cases.towing23,
     ),
@@ -162,8 +163,9 @@ CS23: tuple[Paragraph, ...] = (
     Paragraph(
         number="23.511(b), (c)",
         title="unequal and flat tires",
-        rule="landing loads 60 to 40 % on twin wheels; one flat tire: 60 % of the landing "
-        "loads, of 23.485 and 23.493 60 % of drag and side, the whole vertical load",
+        rule="landing loads 60 to 40 % on twin wheels; one flat tire: 60 % of the "
+        "landing loads, of 23.485 and 23.493 60 % of drag and side, the whole "
+        "vertical load",
         does="static cases",
         cases=cases.unequal_tires,
         needs=(*_LANDING, needs_several_wheels, needs_sides),

@@ -54,8 +54,8 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.479(d)(1)",
         title="level landing, largest vertical load",
-        rule="in addition: the largest vertical load with a drag of at least 25 % of it, "
-        "at the axle",
+        rule="in addition: the largest vertical load with a drag of at least 25 % of "
+        "it, at the axle",
         does="static cases: main gears, all gears",
         cases=landing.level_drag,
         needs=_LANDING,
@@ -63,8 +63,8 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.479(d)(2)",
         title="drift",
-        rule="rational, or 75 % of the largest vertical load with 40 % of that as drag "
-        "and 25 % to the side; deflections 75 %",
+        rule="rational, or 75 % of the largest vertical load with 40 % of that as "
+        "drag and 25 % to the side; deflections 75 %",
         does="static cases to both sides, at the ground; rational: preset drift",
         cases=landing.drift,
         presets=("drift",),
@@ -95,7 +95,8 @@ CS25: tuple[Paragraph, ...] = (
         number="25.485",
         title="side load",
         rule="level, main wheels: half of the largest vertical load each, 0.8 of it "
-        "inward on one side and 0.6 outward on the other at once; no drag; at the ground",
+        "inward on one side and 0.6 outward on the other at once; no drag; at the "
+        "ground",
         does="static cases to both sides",
         cases=landing.side,
         needs=(*_LANDING, needs_sides),
@@ -119,8 +120,8 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.491",
         title="taxi, take-off and landing roll",
-        rule="the roughest ground that may reasonably be expected; AMC 25.491: profiles, "
-        "or 1.7 times the loads at rest",
+        rule="the roughest ground that may reasonably be expected; AMC 25.491: "
+        "profiles, or 1.7 times the loads at rest",
         does="presets over profiles with one or two tracks; the discrete load as a "
         "static case",
         mark="secondary",
@@ -130,9 +131,9 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.493(b)",
         title="braked roll",
-        rule="n = 1.2 at the landing, 1.0 at the ramp weight; drag 0.8 of the vertical "
-        "load at braked wheels, less where the brakes give less; (1) all gears, no "
-        "pitching acceleration, (2) main gears, pitching by inertia",
+        rule="n = 1.2 at the landing, 1.0 at the ramp weight; drag 0.8 of the "
+        "vertical load at braked wheels, less where the brakes give less; (1) all "
+        "gears, no pitching acceleration, (2) main gears, pitching by inertia",
         does="static cases (1) and (2)",
         cases=handling.braked_roll,
         needs=(needs_mains, needs_brakes),
@@ -140,8 +141,8 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.493(d), (e)",
         title="brakes at once",
-        rule="take-off weight: static nose load with the largest dynamic increment, or by "
-        "the formula, f = 2 or by the pitch damping",
+        rule="take-off weight: static nose load with the largest dynamic increment, "
+        "or by the formula, f = 2 or by the pitch damping",
         does="static case by the formula; rational: preset braked_roll",
         mark="memory",
         cases=handling.sudden_braking,
@@ -161,8 +162,8 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.497",
         title="tail wheel yawing",
-        rule="load at rest with as much to the side: swivelled 90° through the axle; with "
-        "a lock, steering or damper also trailing, at the ground",
+        rule="load at rest with as much to the side: swivelled 90° through the axle; "
+        "with a lock, steering or damper also trailing, at the ground",
         does="static cases",
         cases=handling.tail_wheel_yaw,
         needs=(needs_tail,),
@@ -171,7 +172,8 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.499(a)",
         title="nose wheel yaw",
-        rule="n = 1, side load 0.8 of the vertical load at the nose wheel's ground point",
+        rule="n = 1, side load 0.8 of the vertical load at the nose wheel's ground "
+        "point",
         does="static cases to both sides",
         mark="memory",
         cases=handling.nose_yaw,
@@ -181,9 +183,9 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.499(b)-(d)",
         title="brakes of one side",
-        rule="drag 0.8 of the vertical load of one main gear; side and vertical loads of "
-        "the nose wheel from equilibrium, n_y = 0; nose side load need not exceed 0.8 of "
-        "its vertical load, inertia takes the rest",
+        rule="drag 0.8 of the vertical load of one main gear; side and vertical loads "
+        "of the nose wheel from equilibrium, n_y = 0; nose side load need not exceed "
+        "0.8 of its vertical load, inertia takes the rest",
         does="static cases for both sides",
         mark="memory",
         cases=handling.one_side_braked,
@@ -214,8 +216,9 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.507",
         title="reversed braking",
-        rule="three-point: forward load 0.55 of the vertical load at braked wheels, or of "
-        "1.2 times the largest static brake torque; nose wheel types: pitching by inertia",
+        rule="three-point: forward load 0.55 of the vertical load at braked wheels, "
+        "or of 1.2 times the largest static brake torque; nose wheel types: pitching "
+        "by inertia",
         does="static case",
         cases=handling.reversed_braking,
         needs=(needs_brakes,),
@@ -234,15 +237,15 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.511(b)",
         title="several wheels, tires inflated",
-        rule="two thirds of the worst difference of diameters, pressures ±5 %, crown 0 "
-        "and 1.5 %, attitude, deflection of the structure",
+        rule="two thirds of the worst difference of diameters, pressures ±5 %, crown "
+        "0 and 1.5 %, attitude, deflection of the structure",
         does="dynamic runs: gears.<name>.tyres, runway.crown; no static cases",
     ),
     Paragraph(
         number="25.511(c), (d)",
         title="flat tires, landing",
-        rule="one flat tire 60 %, two (of four or more wheels) 50 % of the gear's loads; "
-        "25.485: the whole vertical load; not with drift",
+        rule="one flat tire 60 %, two (of four or more wheels) 50 % of the gear's "
+        "loads; 25.485: the whole vertical load; not with drift",
         does="static cases; the shift of the load's middle is let go",
         cases=landing.flat_tire_landing,
         needs=(*_LANDING, needs_several_wheels),
@@ -250,8 +253,9 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.511(e), (f)",
         title="flat tires, handling",
-        rule="side and drag factors up to 50 and 40 % of the limit; braked roll: no less "
-        "than of each inflated tire before; n 60, 50 %, no less than 1; tow 60, 50 %",
+        rule="side and drag factors up to 50 and 40 % of the limit; braked roll: no "
+        "less than of each inflated tire before; n 60, 50 %, no less than 1; tow 60, "
+        "50 %",
         does="static cases of turning, braked roll, towing",
         cases=handling.flat_tire_handling,
         needs=(needs_several_wheels, needs_brakes, needs_sides),
@@ -260,10 +264,10 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.519",
         title="jacking, tie-down",
-        rule="gears at the ramp weight: 1.33 of the load at rest, alone and with 0.33 of "
-        "it any way; jack pads of the airframe; tie-down in a wind of 65 kt",
-        does="static cases of gears; jack pads and tie-down are the user's (the wind's "
-        "loads are not known here)",
+        rule="gears at the ramp weight: 1.33 of the load at rest, alone and with 0.33 "
+        "of it any way; jack pads of the airframe; tie-down in a wind of 65 kt",
+        does="static cases of gears; jack pads and tie-down are the user's (the "
+        "wind's loads are not known here)",
         cases=handling.jacking,
         design=("take_off",),
     ),

@@ -1,4 +1,4 @@
-"""The aircraft on the ground, as the rules speak of it, and the load cases they ask for.
+"""The aircraft on the ground as the rules speak of it, and the load cases they want.
 
 Ground axes G: x aft, y to starboard, z up, square to the runway; places are relative to
 the aircraft's centre of gravity. A pose is how far shock absorbers and tires are

@@ -41,7 +41,8 @@ def taxi(aircraft: GroundAircraft) -> Iterator[BookCase]:
         paragraph="25.491",
         name="1.7 times the loads at rest",
         loads=tuple(
-            load(g, "ground", vertical=TAXI * z) for g, z in _rest(aircraft, aircraft.gears)
+            load(g, "ground", vertical=TAXI * z)
+            for g, z in _rest(aircraft, aircraft.gears)
         ),
         pose="static",
         note="discrete load of AMC 25.491; profiles: presets taxi and take_off_run",
@@ -108,7 +109,7 @@ def sudden_braking(aircraft: GroundAircraft) -> Iterator[BookCase]:
 
 
 def dynamic_factor(damping: float | None) -> float:
-    """f of 25.493(e): 2.0, or by the damping ζ of the pitching about the main wheels."""
+    """f of 25.493(e): 2.0, or by the damping ζ of pitching about the main wheels."""
     if damping is None:
         return 2.0
     return 1.0 + math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))
@@ -146,7 +147,9 @@ def braked_reactions(aircraft: GroundAircraft, weight: float) -> tuple[GearLoad,
             ratios={gear.name: (FRICTION, 0.0) for gear in free},
             further=[load(name, "ground", drag=d) for name, d in limited.items()],
         )
-        over = [g for g in free if braked_drag(g, found[g.name]) < FRICTION * found[g.name]]
+        over = [
+            g for g in free if braked_drag(g, found[g.name]) < FRICTION * found[g.name]
+        ]
         if not over:
             break
         limited |= {g.name: g.brake_torque / g.radius for g in over}
@@ -177,7 +180,8 @@ def turning(aircraft: GroundAircraft, factor: float = 1.0) -> Iterator[BookCase]
                 if g.name not in lifted
             ),
             pose="static",
-            note=f"{', '.join(lifted)} would lift: inertia takes the rest" * bool(lifted),
+            note=f"{', '.join(lifted)} would lift: inertia takes the rest"
+            * bool(lifted),
         )
 
 
@@ -258,13 +262,15 @@ def one_side_braked(aircraft: GroundAircraft) -> Iterator[BookCase]:
             )
             for g in aircraft.gears
         ]
-        capped = f"nose side load limited to 0.8 of its vertical load, {most / 1e3:.4g} kN"
+        capped = (
+            f"nose side load limited to 0.8 of its vertical load, {most / 1e3:.4g} kN"
+        )
         yield BookCase(
             paragraph="25.499(b)",
             name=f"brakes to {side} only",
             loads=tuple(loads),
             pose="static",
-            note=capped * (abs(wanted) > most),
+            note=capped * bool(abs(wanted) > most),
         )
 
 
@@ -348,12 +354,16 @@ def towing(
 ) -> Iterator[BookCase]:
     """25.509: 0.75 F on each main gear, F or 0.5 F on the nose (tail) gear.
 
-    The towing fitting is taken at the axle. Reacted (i) at the axle of the wheel that is
-    towed, up to its vertical load, and by inertia, or (ii) by inertia alone; the side
-    load of a main gear at its ground line. `whole` is F where another rule sets it.
+    The towing fitting is taken at the axle. Reacted (i) at the axle of the towed wheel,
+    up to its vertical load, and by inertia, or (ii) by inertia alone; the side load of
+    a main gear at its ground line. `whole` is F where another rule sets it.
     """
     tow = factor * (whole or towing_load(aircraft.weight))
-    for degrees, toward in ((0.0, ""), (TOW_OBLIQUE, " starboard"), (-TOW_OBLIQUE, " port")):
+    for degrees, toward in (
+        (0.0, ""),
+        (TOW_OBLIQUE, " starboard"),
+        (-TOW_OBLIQUE, " port"),
+    ):
         for pull, way in ((-1.0, "forward"), (1.0, "aft")):
             angle = f" at 30° to{toward}" if degrees else ""
             yield from _towed(

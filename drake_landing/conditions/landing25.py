@@ -6,7 +6,13 @@ vertical loads are those of a landing at the sink rate of the design weight.
 
 from collections.abc import Iterator
 
-from drake_landing.conditions.ground import BookCase, Gear, GearLoad, GroundAircraft, load
+from drake_landing.conditions.ground import (
+    BookCase,
+    Gear,
+    GearLoad,
+    GroundAircraft,
+    load,
+)
 from drake_landing.conditions.paragraph import largest
 
 LEVEL_DRAG = 0.25

@@ -10,6 +10,8 @@ Mark = Literal["read", "secondary", "memory", "-"]
 Cases = Callable[[GroundAircraft], Iterator[BookCase]]
 Need = Callable[[GroundAircraft], str]
 
+LARGEST_UNKNOWN = "the largest vertical loads of the landing are not known"
+TAIL_DOWN_UNKNOWN = "the largest vertical loads tail-down are not known"
 ANY: tuple[Weight, ...] = ("landing", "take_off")
 
 
@@ -77,13 +79,13 @@ def needs_sides(aircraft: GroundAircraft) -> str:
 def needs_largest(aircraft: GroundAircraft) -> str:
     """Largest vertical loads of the landing."""
     known = all(gear.largest is not None for gear in aircraft.mains)
-    return "" if known else "the largest vertical loads of the landing are not known"
+    return "" if known else LARGEST_UNKNOWN
 
 
 def needs_tail_down(aircraft: GroundAircraft) -> str:
     """The same, tail-down."""
     known = all(gear.tail_down is not None for gear in aircraft.mains)
-    return "" if known else "the largest vertical loads tail-down are not known"
+    return "" if known else TAIL_DOWN_UNKNOWN
 
 
 def needs_steering(aircraft: GroundAircraft) -> str:

@@ -107,7 +107,10 @@ def _peak(history: LandingHistory, gear: str) -> Peak:
     row = int(np.argmax(vertical.to_numpy()))
     touched = np.flatnonzero(vertical.to_numpy() > 0.0)
     start = history.time[touched[0]] if len(touched) else history.time[row]
-    tires = {w: max(history.tyre[w]["deflection"].iloc[row], 0.0) for w in history.wheels[gear]}
+    tires = {
+        w: max(history.tyre[w]["deflection"].iloc[row], 0.0)
+        for w in history.wheels[gear]
+    }
     stroke = max(float(history.strut[gear]["stroke"].iloc[row]), 0.0)
     return Peak(
         vertical=float(vertical.iloc[row]),
@@ -122,7 +125,9 @@ def given_peak(gear: LandingGear, vertical: float) -> Peak:
     tire = {}
     for wheel in gear.wheel_names:
         law = TireLaw(tire_parameters(gear.tyre_of(wheel)), Runway())
-        tire[wheel] = _inverse(law.elastic_force, each, 0.9 * gear.tyre_of(wheel).radius)
+        tire[wheel] = _inverse(
+            law.elastic_force, each, 0.9 * gear.tyre_of(wheel).radius
+        )
     parameters = shock_absorber_parameters(gear.shock_absorber)
     strut = StrutLaw(parameters)
 
@@ -131,7 +136,9 @@ def given_peak(gear: LandingGear, vertical: float) -> Peak:
         return strut.gas_force(stroke, tunables, strut.settled(stroke, tunables))
 
     stroke = _inverse(gas, vertical, parameters.max_stroke)
-    return Peak(vertical=vertical, time=np.nan, at=Deflections(stroke=stroke, tire=tire))
+    return Peak(
+        vertical=vertical, time=np.nan, at=Deflections(stroke=stroke, tire=tire)
+    )
 
 
 def _inverse(force, wanted: float, most: float) -> float:

@@ -81,7 +81,9 @@ class GearStand:
         self._rolling = Scenario.model_validate(
             {"start": "rolling", "forward_speed": 0.0, "lift": "none"}
         )
-        self.landing: LandingDiagram = build_landing(body, plain, {}, R_AB, self._rolling)
+        self.landing: LandingDiagram = build_landing(
+            body, plain, {}, R_AB, self._rolling
+        )
         self.airframe = RigidMass(
             mass=body.mass, center=np.array(body.p_BG), inertia=body.inertia_G
         )
@@ -117,7 +119,9 @@ class GearStand:
     def extended(self) -> dict[str, Deflections]:
         """No deflections."""
         return {
-            gear.name: Deflections(stroke=0.0, tire=dict.fromkeys(gear.wheel_names, 0.0))
+            gear.name: Deflections(
+                stroke=0.0, tire=dict.fromkeys(gear.wheel_names, 0.0)
+            )
             for gear in self.landing.gears
         }
 

@@ -14,8 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
-from drake_landing.airframe.basis import Basis
-from drake_landing.airframe.body import check_nodes, modal_body
+from drake_landing.airframe.body import check_nodes, rigid_airframe
 from drake_landing.airframe.damping import damping_story
 from drake_landing.airframe.deck_units import check_units
 from drake_landing.airframe.free_flight import check_free_flight, check_mass
@@ -29,18 +28,19 @@ from drake_landing.airframe.truncation import WANTED, below, frequency_for, poin
 from drake_landing.cache import Cache
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.schema import Case
+from drake_landing.conditions.build import on_ground
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.conditions import condition_figures
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import StepError, expected_step_error
 from fem.algebra.linear_solver import factorize
 from fem.errors import by_kind
 from fem.model.structure import Structure
-from systems.airframe.modal_body import ModalBody
 
 _AT_ONCE = 200_000  # freedoms that are factorised without being asked, some seconds
 _HEAD = 12  # characters
@@ -89,9 +89,11 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
             step = expected_step_error(case, aircraft, shapes, pulses)
             truncated = _truncated(case, shapes, pulses)
         _dry_run(case, aircraft, structure)
+        conditions = list(_conditions(case, aircraft, structure))
     lines = [*_airframe(case, aircraft, structure, cost, truncated)]
     lines += [*_gears(aircraft), *_touchdown(case, aircraft)]
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
+    lines += conditions
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
     if step is not None:
         remarks = (*remarks, *step.remarks)
@@ -122,7 +124,7 @@ def _dry_run(case: Case, aircraft: Aircraft, structure: Structure) -> None:
         return  # only a flexible airframe can say how they share the load
     R_AB = rotation_AB(case.airframe.axes)
     landing = build_landing(
-        _rigid(structure, aircraft, R_AB),
+        rigid_airframe(structure, aircraft.multibody_nodes, R_AB),
         aircraft.gears,
         aircraft.monitoring,
         R_AB,
@@ -131,16 +133,6 @@ def _dry_run(case: Case, aircraft: Aircraft, structure: Structure) -> None:
     )
     context = landing.diagram.CreateDefaultContext()
     start_state(landing, context, aircraft.scenario, case.simulation.clearance)
-
-
-def _rigid(structure: Structure, aircraft: Aircraft, R_AB: np.ndarray) -> ModalBody:
-    basis = Basis(
-        frequency_hz=np.zeros(0),
-        shape=np.zeros((structure.size, 0)),
-        rigid=structure.rigid_body,
-        freedoms=structure.size,
-    )
-    return modal_body(structure, basis, aircraft.multibody_nodes, R_AB)
 
 
 def _holds(gear: LandingGear) -> int:
@@ -275,6 +267,18 @@ def _run(
             f"about {_expected(case, structure, cost, length, steps)} of processor "
             f"time{compilation_remark()}",
         )
+
+
+def _conditions(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[str]:
+    """Static cases of the rules and their largest loads, where the case has any."""
+    if "conditions" not in case.model_fields_set:
+        return
+    R_AB = rotation_AB(case.airframe.axes)
+    body = rigid_airframe(structure, aircraft.multibody_nodes, R_AB)
+    ground = on_ground(body, aircraft.gears, R_AB, case.conditions)
+    rows = condition_figures(case.conditions, ground)
+    for i, (number, text) in enumerate(rows):
+        yield _line("" if i else "conditions", f"{number:<16}{text}")
 
 
 def _expected(

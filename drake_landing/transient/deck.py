@@ -66,7 +66,7 @@ def transient_deck(
     sections = split_sections(read_source(source).lines, str(source))
     params = params or {}
     bulk = without_cards(
-        _until_enddata(sections.bulk),
+        until_enddata(sections.bulk),
         lambda card: (
             card.name in left_out or (card.name == "PARAM" and card.field(1) in dropped)
         ),
@@ -79,7 +79,7 @@ def transient_deck(
         ],
         axis=-1,
     )
-    first = _free_ids(bulk, 2 + components[0].size)
+    first = free_ids(bulk, 2 + components[0].size)
     for text in head:
         yield from (f"$ {line}" for line in wrap(text, _WIDTH - 2))
     yield from ("SOL 109", "CEND", f"TITLE = {title[:60].upper()}", *selections)
@@ -122,7 +122,7 @@ def model_selections(subcase: Subcase) -> list[str]:
     ]
 
 
-def _until_enddata(lines: Sequence[Line]) -> list[Line]:
+def until_enddata(lines: Sequence[Line]) -> list[Line]:
     """The bulk data without ENDDATA.
 
     Raises:
@@ -139,7 +139,7 @@ def _until_enddata(lines: Sequence[Line]) -> list[Line]:
     return list(lines[:end])
 
 
-def _free_ids(bulk: Sequence[Line], count: int) -> int:
+def free_ids(bulk: Sequence[Line], count: int) -> int:
     """First of that many ids that no card has in its first field."""
     used = {
         int(card.field(1)) for card in read_cards(bulk).cards if card.field(1).isdigit()

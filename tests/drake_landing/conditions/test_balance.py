@@ -1,0 +1,137 @@
+"""Static cases on the full model: equilibrium, and the written deck in another code."""
+
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+from drake_landing.airframe.body import rigid_airframe
+from drake_landing.case.reading import parse_case
+from drake_landing.conditions.balance import holds
+from drake_landing.conditions.build import on_ground
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.conditions import DECK, solve
+from drake_landing.process.explain import explain
+from fem.deck.reader import read_deck
+from fem.errors import InputError
+from fem.solution.run import run_deck
+
+HERE = Path(__file__).resolve().parents[1]
+CONDITIONS = """
+conditions:
+  steering_torque: 900
+  vertical: {nose: 30e3, main_left: 60e3, main_right: 60e3}
+"""
+
+
+def tiny(conditions: str = CONDITIONS):
+    """The beam aircraft with brakes."""
+    text = (HERE / "tiny_case.yaml").read_text() + conditions
+    text = text.replace(
+        "    wheel: {mass: 20", "    brake: {torque: 8000}\n    wheel: {mass: 20"
+    )
+    return parse_case(text, folder=HERE)
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    """Folder, structure and result of the tiny aircraft."""
+    out = tmp_path_factory.mktemp("conditions")
+    case = tiny()
+    aircraft = prepare_aircraft(case, out)
+    structure = aircraft.structure()
+    ground = on_ground(
+        rigid_airframe(structure, aircraft.multibody_nodes, np.eye(3)),
+        aircraft.gears,
+        np.eye(3),
+        case.conditions,
+    )
+    return out, structure, solve(case, aircraft, structure, ground, out)
+
+
+def test_every_case_is_in_equilibrium(found):
+    _, _, result = found
+    assert len(result.balances) > 80
+    assert result.error < 1e-9
+
+
+def test_loads_at_rest_carry_the_weight_and_need_no_acceleration_but_1_g(found):
+    _, _, result = found
+    rest = next(b for b in result.balances if b.case.paragraph == "25.495")
+    assert rest.factors == pytest.approx([0.0, 0.5, 1.0], abs=1e-6)
+    assert np.abs(rest.acceleration[3:]).max() < 1e-6
+
+
+def test_only_what_lacks_data_is_left_out(found):
+    _, _, result = found
+    assert set(result.left_out) == {"25.497"}
+
+
+def test_the_written_deck_has_the_same_stresses(found, tmp_path):
+    out, _, result = found
+    path = run_deck(read_deck(out / DECK), tmp_path / "static.h5")
+    worst = result.worst
+    assert len(worst) == 8
+    with h5py.File(path) as file:
+        assert len(file["static"]) == len(result.balances)
+        for row in worst.itertuples():
+            group = file[f"static/{row.case}/element_stress/{row.card}"]
+            columns = list(group.attrs["columns"])
+            at = int(np.flatnonzero(group["id"][:] == row.id)[0])
+            value = dict(zip(columns, group["value"][at]))
+            extremes = [c for c in columns if c.startswith(("smax", "smin"))]
+            largest = max(abs(value[c]) for c in extremes)
+            assert largest == pytest.approx(row.equivalent, rel=1e-6)
+
+
+def test_one_gear_loads_the_attachment_with_ground_less_its_own_inertia(found):
+    _, _, result = found
+    number, balance = next(
+        (k, b)
+        for k, b in enumerate(result.balances, 1)
+        if b.case.name == "one gear, main_right"
+    )
+    table = result.attachment_loads
+    own = table[(table.case == number) & (table.node == 52)].iloc[0]
+    posed = result.ground.poses["largest"]
+    gear = posed.gears["main_right"]
+    arm = gear.center - posed.whole.center
+    a = balance.acceleration
+    ground = posed.R_AG @ balance.case.loads[0].force
+    wanted = ground - gear.mass * (a[:3] + np.cross(a[3:], arm))
+    assert [own.fx, own.fy, own.fz] == pytest.approx(wanted)
+
+
+def test_more_holds_than_six_share_the_load_by_the_airframe(found):
+    out, structure, _ = found
+    case = tiny()
+    gears = list(prepare_aircraft(case, out).gears)
+    data = gears[1].model_dump()
+    data["further_attachments"] = [
+        {"name": "stay", "node": 5, "directions": [(1.0, 0.0, 0.0)]}
+    ]
+    gears[1] = type(gears[1]).model_validate(data)
+    held = holds(structure, gears)
+    load = {g.name: np.zeros(6) for g in gears}
+    load["main_right"] = np.array([1e4, 2e3, 6e4, 1e4, -5e4, 2e3])
+    split = held.split(load)
+    assert held.resultant @ split == pytest.approx(load["main_right"], rel=1e-9)
+    # The gap along the stay closes: a rigid fitting follows its main node.
+    seen = held.seen @ split
+    own = [k for k, name in enumerate(held.gear) if name == "main_right"]
+    at = {n: structure.points.xyz[structure.points.rows([n])[0]] for n in (52, 5)}
+    u, turn = seen[own[:3]], seen[own[3:6]]
+    assert seen[own[6]] == pytest.approx((u + np.cross(turn, at[5] - at[52]))[0])
+
+
+def test_unknown_gears_in_conditions_are_refused():
+    case = tiny("\nconditions: {vertical: {main_rihgt: 1e5}}\n")
+    with pytest.raises(InputError, match="did you mean 'main_right'"):
+        on_ground(None, case.gears, np.eye(3), case.conditions)
+
+
+def test_check_lists_conditions_with_figures_and_what_cannot_apply():
+    text = explain(tiny())
+    assert "25.493(b)       2 cases: largest drag" in text
+    assert "25.497          none: no tail wheel" in text
