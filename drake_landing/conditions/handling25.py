@@ -17,6 +17,7 @@ from drake_landing.conditions.ground import (
 )
 from drake_landing.conditions.landing25 import SIDES
 from drake_landing.conditions.statics import reactions
+from fem.arrays import Float64
 
 FRICTION = 0.8
 POUND_FORCE = 4.4482216152605
@@ -488,12 +489,11 @@ def _rest(
     return [(gear, loads[gear.name]) for gear in gears]
 
 
-def _middle(aircraft: GroundAircraft) -> np.ndarray:
+def _middle(aircraft: GroundAircraft) -> Float64:
     """(3,) of the main gears' ground points, by their loads at rest, G, m."""
     loads, places = at_rest(aircraft), aircraft.poses["static"]
-    mains = aircraft.mains
-    total = sum(loads[g.name] for g in mains)
-    return sum(loads[g.name] * places[g.name].ground for g in mains) / total
+    points = np.array([places[g.name].ground for g in aircraft.mains])
+    return np.average(points, axis=0, weights=[loads[g.name] for g in aircraft.mains])
 
 
 def _renamed(case: BookCase, paragraph: str, name: str) -> BookCase:
