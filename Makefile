@@ -11,7 +11,7 @@ READY := $(VENV)/.ready
 export OPENBLAS_NUM_THREADS := 1
 export MPLBACKEND := Agg
 
-.PHONY: demo test check format slow verify bench python clean
+.PHONY: demo test check format slow verify docs bench python clean
 
 demo: $(READY)
 	$(BIN)/drake-landing demo
@@ -34,6 +34,10 @@ slow: $(READY)
 
 verify: $(READY)
 	$(BIN)/python -m benchmarks.verification
+
+docs: $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[docs]'
+	$(BIN)/python -m mkdocs build --strict --quiet
 
 bench: $(READY)
 	$(BIN)/python -m benchmarks

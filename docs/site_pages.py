@@ -1,0 +1,102 @@
+"""Pages of the site that are made when it is built: a hook of mkdocs.
+
+README, CONTRIBUTING and CHANGELOG stand at the root of the repository; the reference
+has a page for each room, with the docstrings of its modules. Systems that Drake makes
+for several scalars exist at run time only: their docstrings are taken from there.
+"""
+
+import inspect
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.structure.files import File, Files
+
+import systems
+
+ROOT = Path(__file__).parents[1]
+PACKAGES = ("drake_landing", "systems", "fem")
+_AT_ROOT = {
+    "README.md": "index.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "CHANGELOG.md": "changes.md",
+}
+_LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """The reference goes to the end of the navigation."""
+    reference = [
+        {package: [{name: page} for name, page, _ in _rooms(package)]}
+        for package in PACKAGES
+    ]
+    assert config.nav is not None
+    config.nav.append({"Reference": reference})
+    return config
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Adds what is not a file of the folder of pages."""
+    for source, page in _AT_ROOT.items():
+        text = (ROOT / source).read_text(encoding="utf-8")
+        files.append(File.generated(config, page, content=_from_root(text)))
+    for package in PACKAGES:
+        for _, page, modules in _rooms(package):
+            content = "\n\n".join(_reference(modules))
+            files.append(File.generated(config, page, content=content))
+    return files
+
+
+def on_page_markdown(markdown: str, **_: object) -> str:
+    """Pages link files of the repository that the site does not have: their names."""
+    return _LINK.sub(_kept, markdown)
+
+
+def _from_root(text: str) -> str:
+    """Links and pictures seen from the folder of pages."""
+    for source, page in _AT_ROOT.items():
+        text = text.replace(f"]({source})", f"]({page})")
+    return text.replace("](docs/", "](")
+
+
+def _kept(match: re.Match[str]) -> str:
+    text, target = match.groups()
+    path = target.split("#")[0]
+    inside = not path or "://" in target or path.endswith((".md", ".png", ".svg"))
+    return match[0] if inside and not path.startswith("../") else f"`{text.strip('`')}`"
+
+
+def _rooms(package: str) -> Iterator[tuple[str, str, list[str]]]:
+    """Name, page and modules of each room; modules beside the rooms come first."""
+    folder = ROOT / package
+    alone = [p for p in sorted(folder.glob("*.py")) if not p.stem.startswith("_")]
+    yield package, f"reference/{package}/index.md", [package, *map(_module, alone)]
+    for room in sorted(p for p in folder.iterdir() if (p / "__init__.py").exists()):
+        files = [p for p in sorted(room.rglob("*.py")) if not p.stem.startswith("_")]
+        page = f"reference/{package}/{room.name}.md"
+        yield room.name, page, [_module(room), *map(_module, files)]
+
+
+def _module(path: Path) -> str:
+    return ".".join(path.relative_to(ROOT).with_suffix("").parts)
+
+
+def _reference(modules: list[str]) -> Iterator[str]:
+    yield f"# {modules[0]}"
+    yield f"::: {modules[0]}\n    options: {{members: false, show_root_heading: false}}"
+    for module in modules[1:]:
+        yield f"## {module.split('.', 1)[1]}"
+        yield from _templated(module)
+        yield f"::: {module}\n    options: {{show_root_heading: false}}"
+
+
+def _templated(module: str) -> Iterator[str]:
+    """Systems of a module that are made from a template."""
+    for name in systems.__all__:
+        system = getattr(systems, name.removesuffix("_"), None)
+        if name.endswith("_") and system.__module__ == module:
+            signature = f"{name.removesuffix('_')}{inspect.signature(system)}"
+            yield f"### {module}.{name.removesuffix('_')}"
+            yield f"```python\n{signature}\n```"
+            yield inspect.getdoc(system) or ""
