@@ -283,6 +283,24 @@ def reduce(
     print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
 
 
+@app.command("show-run")
+def show_run(
+    folder: Annotated[Path, typer.Argument(metavar="OUT", help="results of a run")],
+) -> None:
+    """How a run was made, and whether its files are still those that it has read."""
+    from drake_landing.results.provenance import read_provenance
+    from fem.errors import InputError
+
+    made = read_provenance(folder)
+    lines = made.lines()
+    width = max(len(what) for what, _ in lines)
+    for what, value in lines:
+        print(f"{what:<{width}}  {value}")
+    if changes := made.changes(folder):
+        raise InputError(changes)
+    print(f"\nverified: {len(made.files)} files and the gear data are those of the run")
+
+
 @app.command()
 def cache(
     clear: Annotated[bool, typer.Option("--clear", help="delete what is kept")] = False,

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from datetime import date
 from pathlib import Path
+from textwrap import wrap
 
 import numpy as np
 import numpy.typing as npt
@@ -32,6 +33,7 @@ _UNITS = {
     "mm-t-N": "mm, t, s, N, MPa",
     "in-lbf": "in, lbf s2/in, s, lbf, psi",
 }
+_REMARK = 70  # columns of a remark at the head
 _SAME = 1e-7  # of the largest entry: ten digits are written
 
 
@@ -42,6 +44,7 @@ def write_landing_deck(
     airframe: AirframeModel,
     loads: AttachmentLoads,
     elements: Sequence[int] = (),
+    made: Sequence[tuple[str, str]] = (),
 ) -> None:
     """The complete SOL 109 deck of this landing, in the units of the user's deck.
 
@@ -50,6 +53,7 @@ def write_landing_deck(
         case, aircraft, airframe: of the run.
         loads: on the grid of the transient.
         elements: whose forces and stresses are asked for.
+        made: how the run was made, for the head.
 
     Raises:
         InputError: the user's deck cannot be read any more.
@@ -63,7 +67,7 @@ def write_landing_deck(
         output=list(aircraft.monitoring.values()),
         selections=model_selections(airframe.structure.subcase),
         title=f"{case.name}: landing, attachment loads of the multibody run",
-        head=list(_head(case, aircraft, deck.ignored)),
+        head=list(_head(case, aircraft, deck.ignored, made)),
         elements=elements,
         left_out=deck.ignored,
         params={n: deck.number(n) for n in PARAMETERS if given and deck.number(n)},
@@ -134,7 +138,12 @@ def _in_displacement_axes(loads: AttachmentLoads, airframe: AirframeModel) -> Fl
     return np.einsum("kba,tksb->tksa", axes, vectors).reshape(len(loads.time), -1)
 
 
-def _head(case: Case, aircraft: Aircraft, ignored: Sequence[str]) -> Iterator[str]:
+def _head(
+    case: Case,
+    aircraft: Aircraft,
+    ignored: Sequence[str],
+    made: Sequence[tuple[str, str]],
+) -> Iterator[str]:
     """What somebody must know who finds this deck without its run."""
     axes = case.airframe.axes
     yield f"Landing '{case.name}': {aircraft.scenario.story}"
@@ -148,3 +157,5 @@ def _head(case: Case, aircraft: Aircraft, ignored: Sequence[str]) -> Iterator[st
         yield f"Left out, as the case asked: {', '.join(ignored)}"
     if case.airframe.damping is not None:
         yield "Damping: PARAM of the case in place of the model's"
+    for what, value in made:
+        yield from wrap(f"{what}: {value}", _REMARK, subsequent_indent="  ")

@@ -41,6 +41,7 @@ from drake_landing.results import units
 from drake_landing.results.comparison import RunLabel, comparison_table
 from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.late_extremes import flagged, late_extremes
+from drake_landing.results.provenance import Provenance
 from drake_landing.results.readme import write_readme
 from drake_landing.results.result import ProcessResult, on_grid
 from drake_landing.results.stages import Stages
@@ -84,6 +85,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     cache = Cache.of_user()
     stages.begin("reading the deck")
     aircraft = prepare_aircraft(case, out)
+    provenance = Provenance.begin(case, aircraft, out)
     structure = aircraft.structure()
     check_nodes(structure, aircraft)
     check_units(structure, aircraft)
@@ -112,7 +114,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     stages.begin("writing the deck of the transient")
     deck = out / "landing_sol109.bdf"
     worst = tables.worst_elements(full.parts.judged, 1.0, 1)["id"].tolist()
-    write_landing_deck(deck, case, aircraft, airframe, loads, worst)
+    write_landing_deck(deck, case, aircraft, airframe, loads, worst, provenance.lines())
     deck_checked = check_landing_deck(deck, case, airframe, loads)
 
     stages.begin("comparing")
@@ -149,6 +151,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         ),
         late=flight.late,
         deck_checked=deck_checked,
+        provenance=provenance,
         practices=full.practices,
         notices=tuple(
             by_kind(
@@ -325,6 +328,8 @@ def write_files(result: ProcessResult, out: Path) -> None:
         comparison=result.comparison,
         gears=result.gears,
         parts=parts,
+        provenance=result.provenance,
+        seconds=sum(result.seconds.values()),
     )
     write_csv(out / "comparison.csv", result.comparison)  # the agreed columns
     worst = tables.worst_elements(parts.judged, ultimate)

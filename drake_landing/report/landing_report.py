@@ -13,6 +13,7 @@ from drake_landing.case.reading import case_text
 from drake_landing.files import versions
 from drake_landing.report import figures
 from drake_landing.report.axes_figure import axes_sketch
+from drake_landing.report.gear_echo import gear_echo
 from drake_landing.report.page import (
     Block,
     Page,
@@ -131,6 +132,14 @@ def _sections(
         blocks=[Block(svg=figures.energy(result.history))],
     )
     yield _case(result)
+    yield Section(
+        id="made",
+        title="How it was made",
+        text="The same stands in results.h5 (group provenance) and at the head of "
+        "landing_sol109.bdf; drake-landing show-run FOLDER prints it and verifies the "
+        "checksums. Paths are relative to the folder of the results.",
+        blocks=[pairs_block(_made(result))],
+    )
     yield _files(result, folder)
     if result.notices:
         yield Section(
@@ -360,12 +369,21 @@ def _case(result: "ProcessResult") -> Section:
         title="Case and gears",
         blocks=[
             pairs_block(_case_pairs(result)),
+            gear_echo(result.aircraft.gears, result.provenance.facts["gear data"]),
             Block(
                 caption="The case file, defaults written out",
                 pre=case_text(result.case),
             ),
         ],
     )
+
+
+def _made(result: "ProcessResult") -> list[tuple[str, str]]:
+    seconds = sum(result.seconds.values())
+    return [
+        *result.provenance.lines(),
+        ("duration", f"{seconds:.1f} s until this page"),
+    ]
 
 
 def _files(result: "ProcessResult", folder: Path) -> Section:

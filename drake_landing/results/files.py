@@ -2,6 +2,7 @@
 
 Layout of `results.h5`: attribute `case` (YAML) and `versions`; groups
 
+    /provenance         how the run was made: attributes; files with checksums; gears
     /attachment_loads   time, node_id, load (t, k, 6) as given to the full model, basic
     /multibody/<kind>/<name>   time and value (t, c) with attributes columns, units;
                         kinds: attachment, tyre, strut, bending (elastic legs),
@@ -48,6 +49,7 @@ from systems.airframe.modal_body import ModalBody
 
 if TYPE_CHECKING:
     from drake_landing.parts.watch import PartsFound
+    from drake_landing.results.provenance import Provenance
 
 # What a run writes.
 FILES = (
@@ -81,6 +83,8 @@ def write_results(
     comparison: pd.DataFrame,
     gears: pd.DataFrame,
     parts: "PartsFound",
+    provenance: "Provenance",
+    seconds: float,
 ) -> None:
     """Writes `results.h5`.
 
@@ -95,6 +99,8 @@ def write_results(
         envelopes: extremes of the element results in the direct transient.
         comparison, gears: the tables of the same names.
         parts: what the parts see.
+        provenance: how the run was made.
+        seconds: that it has taken so far.
     """
 
     def write(to: Path) -> None:
@@ -102,6 +108,7 @@ def write_results(
             file.attrs["case"] = case
             for name, version in versions().items():
                 file.require_group("versions").attrs[name] = version
+            provenance.write(file, seconds)
             _write_loads(file.create_group("attachment_loads"), loads)
             _write_history(file.create_group("multibody"), history)
             for point, table in response.items():

@@ -13,6 +13,7 @@ from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import POINT, LandingHistory
 from drake_landing.parts.watch import PartsFound
+from drake_landing.results.provenance import Provenance
 from drake_landing.results.stages import Stages
 from drake_landing.results.truncation import Truncation
 from drake_landing.transient.practices import Practices
@@ -43,6 +44,7 @@ class ProcessResult:
         gears: table of `gears.csv`.
         notices: what the user should know.
         stages: what each stage took.
+        provenance: how the run was made.
     """
 
     case: Case
@@ -60,6 +62,7 @@ class ProcessResult:
     late: pd.DataFrame
     truncation: Truncation
     deck_checked: str
+    provenance: Provenance
     practices: Practices | None = None
     notices: tuple[str, ...] = ()
     stages: Stages = field(default_factory=Stages, repr=False)

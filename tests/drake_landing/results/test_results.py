@@ -18,6 +18,7 @@ from drake_landing.landing.history import (
 from drake_landing.parts.places import Places
 from drake_landing.parts.watch import CaseFound, PartsFound
 from drake_landing.results.files import write_history_csv, write_results
+from drake_landing.results.provenance import Provenance
 from fem.files.aside import write_aside
 from systems.airframe.modal_body import ModalBody
 
@@ -119,6 +120,10 @@ def test_results_file_reads_back(
         comparison=comparison,
         gears=gear_peaks("r", history),
         parts=parts(),
+        provenance=Provenance(
+            facts={"load case": "x"}, files=(), gears="[]", gears_sha256="0"
+        ),
+        seconds=1.0,
     )
     with h5py.File(path) as file:
         assert file.attrs["case"] == "name: x\n"
