@@ -16,6 +16,7 @@ from datetime import datetime
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.schema import Case
@@ -132,7 +133,10 @@ def read_provenance(folder: Path) -> Provenance:
                 group[f"files/{n}"].asstr()[:] for n in ("role", "path", "sha256")
             ]
             return Provenance(
-                facts={str(n): str(group.attrs[n]) for n in group.attrs["order"]},
+                facts={
+                    str(n): str(group.attrs[n])
+                    for n in np.asarray(group.attrs["order"])
+                },
                 files=tuple(
                     FileMark(role=r, path=p, sha256=s) for r, p, s in zip(*columns)
                 ),
