@@ -62,7 +62,6 @@ WITHOUT_EFFECT = frozenset().union(*PASSED_OVER.values())
 # Why cards are not supported, by the beginning of their names.
 _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("PLPLANE", "PLSOLID"), "materials are linear here"),
-    (("CGAP",), "no contact here"),
 )
 
 
@@ -79,11 +78,9 @@ def reason(name: str) -> str:
 PROPERTY_OF: dict[str, str] = {
     "CBEND": "PBEND",
     "CBEAM3": "PBEAM3",
-    "CGAP": "PGAP",
     "CFAST": "PFAST",
     "CWELD": "PWELD",
     "CSEAM": "PSEAM",
-    "CBUSH1D": "PBUSH1D",
     "CBUSH2D": "PBUSH2D",
     "CAABSF": "PAABSF",
     "CDAMP5": "PDAMP5",

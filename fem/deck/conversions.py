@@ -167,6 +167,21 @@ def mass_matrix(table: pd.DataFrame, units: Units, _: Context) -> None:
     table["ms"] = listed(table, [np.asarray(m) * factor for m in table["ms"]])
 
 
+def general(table: pd.DataFrame, units: Units, _: Context) -> None:
+    """GENEL: stiffness with a length for each rotation; S by the lengths of its sides.
+
+    Scalar points count as translations.
+    """
+    stiffness, carried = [], []
+    for k, s, comps in zip(table["k"], table["s"], table["comps"]):
+        size = units.length ** _rotation(comps)
+        own, other = size[: len(k)], size[len(k) :]
+        stiffness.append(np.asarray(k) * units.mass * np.outer(own, own))
+        shape = np.outer(1.0 / own, other)
+        carried.append(np.asarray(s) * shape if np.size(s) else s)
+    table["k"], table["s"] = listed(table, stiffness), listed(table, carried)
+
+
 def equation(table: pd.DataFrame, units: Units, _: Context) -> None:
     """MPC: rotations count in lengths."""
     rows = zip(table["coefficients"], table["comps"])

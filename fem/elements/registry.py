@@ -9,6 +9,7 @@ from fem.deck.records import CARDS
 from fem.elements.block import ElementBlock
 from fem.elements.lines.beam import beam_notices
 from fem.elements.nonstructural_mass import add_nonstructural_mass
+from fem.elements.scalars.gap import gap_notices
 from fem.elements.solids.notices import solid_notices
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -64,4 +65,9 @@ def read_elements(deck: "Deck", points: Points, *, nsm: int = 0) -> list[Element
 
 def element_notices(deck: "Deck") -> list[str]:
     """What the cards ask for and the elements do not model."""
-    return [*beam_notices(deck), *strength_notices(deck), *solid_notices(deck)]
+    return [
+        *beam_notices(deck),
+        *strength_notices(deck),
+        *solid_notices(deck),
+        *gap_notices(deck),
+    ]

@@ -76,8 +76,8 @@ def test_bad_cases(
 
 BAD_DECKS = {
     "unsupported cards": (
-        lambda t: changed(t, "ENDDATA", "CBEND,1,2,3,4\nCGAP,5,6,7,8\nENDDATA"),
-        ["CBEND", "CGAP"],
+        lambda t: changed(t, "ENDDATA", "CBEAM3,1,2,3,4\nCSEAM,5,6,7,8\nENDDATA"),
+        ["CBEAM3", "CSEAM"],
     ),
     "empty": (lambda t: "", ["empty"]),
     "comments only": (lambda t: "$ nothing\n", ["empty"]),

@@ -7,6 +7,7 @@ and the module with its formulas that the record names. See docs/design.md.
 from collections.abc import Iterator
 
 from fem.deck.records import (
+    connectors,
     constraints,
     dynamic_loads,
     lines,
@@ -28,6 +29,7 @@ _ROOMS = (
     masses,
     lines,
     scalars,
+    connectors,
     shells,
     solids,
     materials,

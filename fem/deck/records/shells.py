@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from fem.deck import conversions
-from fem.deck.cards import finish, from_pynastran
+from fem.deck.cards import finish, from_pynastran, laminates
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 
 _GROUP = "Shells, panels"
@@ -220,6 +220,12 @@ RECORDS = (
         extract=from_pynastran.pcomp,
         table="PCOMP",
         extent="area",
+    ),
+    Card(
+        name="PCOMP1", group=_GROUP, read=laminates.pcomp1, table="PCOMP", extent="area"
+    ),
+    Card(
+        name="PCOMP2", group=_GROUP, read=laminates.pcomp2, table="PCOMP", extent="area"
     ),
     Card(
         name="PSHEAR",

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from fem.arrays import Float64
+from fem.arrays import Bool, Float64, Int64
 from fem.deck.records.scalars import BUSH_FORCE, BUSH_STRESS
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
@@ -108,21 +108,14 @@ def read_cbush(deck: "Deck", points: Points) -> list[Bushings]:
     if rows.empty:
         return []
     values = refer(rows, "CBUSH", "pid", table(deck, "PBUSH"), "PBUSH")
-    at_a = points.rows(rows["ga"].to_numpy(np.int64))
-    gb = rows["gb"].to_numpy(np.int64)
-    at_b = np.where(gb > 0, points.rows(np.where(gb > 0, gb, rows["ga"])), -1)
-    xyz_a = points.xyz[at_a]
-    between = np.where((at_b >= 0)[:, None], points.xyz[at_b] - xyz_a, 0.0)
-    axes = _axes(rows, values, points, between)
-    place = _places(rows, points, between)
-    freedoms = np.arange(6)
-    dof_b = np.where((at_b >= 0)[:, None], 6 * at_b[:, None] + freedoms, -1)
+    lateral = np.any((_sixes(values, "ks") + _sixes(values, "bs"))[:, [1, 2, 4, 5]], 1)
+    dof, motion = place_between(rows, "CBUSH", points, lateral)
     return [
         Bushings(
             card="CBUSH",
             id=rows["eid"].to_numpy(np.int64),
-            dof=np.hstack([6 * at_a[:, None] + freedoms, dof_b]),
-            motion=relative_motion(axes, place, place - between),
+            dof=dof,
+            motion=motion,
             k=_sixes(values, "ks"),
             b=_sixes(values, "bs"),
             ge=_damping_factors(_sixes(values, "ges")),
@@ -132,6 +125,36 @@ def read_cbush(deck: "Deck", points: Points) -> list[Bushings]:
             ),
         )
     ]
+
+
+def place_between(
+    rows: pd.DataFrame, card: str, points: Points, lateral: Bool | None = None
+) -> tuple[Int64, Float64]:
+    """Freedoms (e, 12) and relative motion (e, 6, 12) of springs between two grids.
+
+    Args:
+        rows: cards with ga, gb (0: ground), cid (-1: none), g0, x1, x2, x3, s and,
+            where they may be offset, ocid, s1, s2, s3.
+        card: their name.
+        points: grids.
+        lateral: (e,) True where the directions across the line matter.
+
+    Raises:
+        InputError: element axes that are not defined.
+    """
+    at_a = points.rows(rows["ga"].to_numpy(np.int64))
+    gb = rows["gb"].to_numpy(np.int64)
+    at_b = np.where(gb > 0, points.rows(np.where(gb > 0, gb, rows["ga"])), -1)
+    xyz_a = points.xyz[at_a]
+    between = np.where((at_b >= 0)[:, None], points.xyz[at_b] - xyz_a, 0.0)
+    if lateral is None:
+        lateral = np.zeros(len(rows), bool)
+    axes = _axes(rows, card, lateral, points, between)
+    place = _places(rows, points, between)
+    freedoms = np.arange(6)
+    dof_b = np.where((at_b >= 0)[:, None], 6 * at_b[:, None] + freedoms, -1)
+    dof = np.hstack([6 * at_a[:, None] + freedoms, dof_b])
+    return dof, relative_motion(axes, place, place - between)
 
 
 def relative_motion(axes: Float64, from_a: Float64, from_b: Float64) -> Float64:
@@ -151,7 +174,7 @@ def relative_motion(axes: Float64, from_a: Float64, from_b: Float64) -> Float64:
 
 
 def _axes(
-    rows: pd.DataFrame, values: pd.DataFrame, points: Points, between: Float64
+    rows: pd.DataFrame, card: str, lateral: Bool, points: Points, between: Float64
 ) -> Float64:
     """(e, 3, 3) element axes: CID, else the line AB with v, else AB alone."""
     cid = rows["cid"].to_numpy(np.int64)
@@ -165,20 +188,20 @@ def _axes(
     with np.errstate(invalid="ignore", divide="ignore"):
         axes[by_vector] = axes_from_vector(between[by_vector], v[by_vector])
         axes[by_line] = axes_about(between[by_line])
-    _refuse(rows, values, cid, apart, by_line, axes)
+    _refuse(rows, card, lateral, cid, apart, by_line, axes)
     return axes
 
 
 def _refuse(
     rows: pd.DataFrame,
-    values: pd.DataFrame,
+    card: str,
+    lateral: Bool,
     cid: np.ndarray,
     apart: np.ndarray,
     by_line: np.ndarray,
     axes: Float64,
 ) -> None:
     problems = []
-    lateral = np.any((_sixes(values, "ks") + _sixes(values, "bs"))[:, [1, 2, 4, 5]], 1)
     for i in range(len(rows)):
         if cid[i] < 0 and not apart[i]:
             reason = "its grids coincide or one is ground: CID is needed"
@@ -188,7 +211,7 @@ def _refuse(
             reason = "the orientation vector is parallel to the element"
         else:
             continue
-        problems.append(f"{where('CBUSH', rows.iloc[i])}: {reason}")
+        problems.append(f"{where(card, rows.iloc[i])}: {reason}")
     if problems:
         raise InputError(problems)
 
@@ -197,6 +220,8 @@ def _places(rows: pd.DataFrame, points: Points, between: Float64) -> Float64:
     """(e, 3) the spring's place from grid A, basic."""
     share = rows["s"].to_numpy(float)
     share = np.where(np.isnan(share), 0.5, share)
+    if "ocid" not in rows:
+        return share[:, None] * between
     ocid = rows["ocid"].to_numpy(np.int64)
     at_a = points.rows(rows["ga"].to_numpy(np.int64))
     offset = np.stack([column(rows, f"s{i}") for i in (1, 2, 3)], axis=1)

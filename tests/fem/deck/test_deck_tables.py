@@ -138,16 +138,17 @@ def test_sets_that_a_selected_combination_lacks_are_named(read):
 
 
 def test_all_unsupported_cards_are_listed_at_once_and_can_be_ignored(read):
-    bulk = "CGAP,5,1,1,2\nCBEND,6,3,1,2,3\nCBEND,7,3,2,3,1\nPBEND,3,1\nPLOAD1,4,6,FX,FR"
+    bulk = "CSEAM,5,1,1,2\nCBEAM3,6,3,1,2,3\nCBEAM3,7,3,2,3,1\n"
+    bulk += "PBEAM3,3,1\nPLOAD1,4,6,FX,FR"
     with pytest.raises(InputError) as caught:
         read(bulk)
     text = str(caught.value)
-    assert "CGAP (1 card; " in text
+    assert "CSEAM (1 card; " in text
     assert "a.bdf:10" in text
-    assert "CBEND (2 cards; " in text
-    assert "--ignore CBEND,CGAP,PBEND" in text
-    deck = read(bulk, ignore=("cbend", "CGAP"))
-    assert any("CBEND (2 cards" in notice for notice in deck.notices)
+    assert "CBEAM3 (2 cards; " in text
+    assert "--ignore CBEAM3,CSEAM,PBEAM3" in text
+    deck = read(bulk, ignore=("cbeam3", "CSEAM"))
+    assert any("CBEAM3 (2 cards" in notice for notice in deck.notices)
     assert any("1 PLOAD1 on ignored elements" in notice for notice in deck.notices)
     assert deck.cards["PLOAD1"].empty
 
