@@ -12,6 +12,11 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
             "SEUSET SEUSET1 STREAMLINE SWLDPRM ELIST CYJOIN EXTRN MONSUM MONDSP1",
         ),
         (
+            "Superelements of one bulk data section, solved as one model",
+            "SESET SEELT SETREE SELABEL SEBSET SEBSET1 SECSET SECSET1 SEQSET SEQSET1 "
+            "SESUP RELEASE",
+        ),
+        (
             "Design optimisation",
             "DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN DTABLE "
             "DVCREL1 DVCREL2 DVMREL1 DVMREL2 DVPREL1 DVPREL2 DVGRID DVBSHAP DVSHAP "
@@ -62,6 +67,10 @@ WITHOUT_EFFECT = frozenset().union(*PASSED_OVER.values())
 # Why cards are not supported, by the beginning of their names.
 _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("PLPLANE", "PLSOLID"), "materials are linear here"),
+    (
+        ("SEMPLN", "CSUPER", "SEEXCLD", "SELOAD"),
+        "images and external superelements are not; give BEGIN SUPER with SELOC",
+    ),
 )
 
 

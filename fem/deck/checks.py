@@ -20,10 +20,15 @@ _MOST = 20  # problems of one kind that are listed
 _WORDS = {"GRID": "grid", "POINT": "point", "CORD": "coordinate system"}
 
 
-def check(deck: Deck) -> list[str]:
-    """All problems of a deck whose single cards are well-formed."""
+def check(deck: Deck, *, partial: bool = False) -> list[str]:
+    """All problems of a deck whose single cards are well-formed.
+
+    Args:
+        deck: the deck.
+        partial: its points may be in other sections (BEGIN SUPER).
+    """
     tables = deck.cards
-    problems = _no_points(deck) + _duplicates(tables)
+    problems = ([] if partial else _no_points(deck)) + _duplicates(tables)
     if problems:
         return problems
     problems += _references(tables)

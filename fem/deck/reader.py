@@ -32,6 +32,7 @@ from fem.deck.parameters import read_parameters
 from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
+from fem.deck.superelements import in_one_piece
 from fem.deck.tables import make_tables
 from fem.deck.values import Malformed
 from fem.errors import InputError
@@ -76,8 +77,8 @@ def read_deck(
     Args:
         path: the deck; a file of bulk data alone (punch) will do.
         ignore: names of unsupported cards to go on without; recorded in the notices.
-        superelements: read BEGIN SUPER=n sections, too, for callers that put the
-            partitions together; else they are refused.
+        superelements: BEGIN SUPER=n sections as decks of their own, for callers that
+            reduce them; else they are joined with the main section to one model.
 
     Raises:
         InputError: everything that is wrong with the deck, each with file and line.
@@ -97,11 +98,8 @@ def read_deck(
     problems = [*sections.problems, *executive.problems, *case.problems]
     if executive.sol == 200:
         set_initial_values(bulk.cards, ignore, problems, notices)
-    deck = _deck(path, bulk, case, ignore, problems, notices)
-    if sections.superelements and not superelements:
-        numbers = ", ".join(map(str, sections.superelements))
-        problems.append(f"{path}: superelements (BEGIN SUPER = {numbers})")
-        problems[-1] += " are not supported here; expected one bulk data section"
+    has_parts = bool(sections.superelements)
+    deck = _deck(path, bulk, case, ignore, problems, notices, partial=has_parts)
     if any(c.initial_temperature or c.temperature for c in case.subcases):
         problems += [
             f"{card.place}: {card.name} with TEMPERATURE in the case control: "
@@ -110,13 +108,20 @@ def read_deck(
             if card.name.startswith("MATT") and card.name not in ignore
         ]
     parts = _superelements(path, sections, ignore, problems)
+    if parts and not superelements and not problems:
+        deck, whole = in_one_piece(deck, parts)
+        parts = {}
+        problems += whole.problems
+        notices += whole.notices
+        if not problems:
+            problems += check(deck)
     if not problems:
         found = check_selected(deck, executive.sol, parts.values())
         problems += found.problems
         notices += found.notices
     if problems:
         raise InputError(problems)
-    if sections.has_control and not bulk.has_enddata and not parts:
+    if sections.has_control and not bulk.has_enddata and not has_parts:
         notices.append(f"{path}: no ENDDATA; the deck may be cut off")
     return Deck(
         path=path,
@@ -152,8 +157,10 @@ def _deck(
     ignore: Collection[str],
     problems: list[str],
     notices: list[str],
+    *,
+    partial: bool = False,
 ) -> Deck:
-    """Tables and parameters of one bulk data section."""
+    """Tables and parameters of one bulk data section, of all or `partial`."""
     problems += bulk.problems
     notices += bulk.notices
     groups: dict[str, list[RawCard]] = {}
@@ -171,7 +178,7 @@ def _deck(
     )
     if not problems:
         clean(tables, ignored, notices)
-        problems += check(deck)
+        problems += check(deck, partial=partial)
     return deck
 
 

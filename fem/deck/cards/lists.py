@@ -182,7 +182,22 @@ def tstep(f: Fields) -> Rows:
 
 def seconct(f: Fields) -> Rows:
     """Pairs of points that two superelements share; SEIDB 0 is the residual one."""
-    pairs = [(f.integer(k, "GIDA"), f.integer(k + 1, "GIDB")) for k in f.groups(9, 2)]
-    a, b = (np.array(column, dtype=np.int64) for column in zip(*pairs or [(0, 0)]))
+    texts = [text for text in f.card.fields[9:] if text]
+    if "THRU" in texts:
+        first = f.integer(9, "GIDA1"), f.integer(12, "GIDB1")
+        last = f.integer(11, "GIDA2"), f.integer(14, "GIDB2")
+        if (
+            f.text(10) != "THRU"
+            or f.text(13) != "THRU"
+            or (last[0] - first[0] != last[1] - first[1])
+        ):
+            raise Malformed("expected GIDA1 THRU GIDA2 GIDB1 THRU GIDB2, equally long")
+        a, b = (np.arange(i, j + 1) for i, j in zip(first, last))
+    else:
+        pairs = [
+            (f.integer(k, "GIDA"), f.integer(k + 1, "GIDB")) for k in f.groups(9, 2)
+        ]
+        columns = zip(*pairs) if pairs else ((), ())
+        a, b = (np.array(column, dtype=np.int64) for column in columns)
     row = {"sea": f.integer(1, "SEIDA"), "seb": f.integer(2, "SEIDB")}
     return [{**row, "gidas": a, "gidbs": b}]

@@ -74,6 +74,12 @@ RECORDS = (
         fields="seid:i type:s rseid:i=0 method:s=AUTO tol:f=1.E-5[1] loc:s=YES "
         "unitno:i=0",
     ),
+    # Three points of the superelement and their places in the main section.
+    Card(
+        name="SELOC",
+        group=_SETS,
+        fields="seid:i pa1:i pa2:i pa3:i pb1:i pb2:i pb3:i",
+    ),
     Card(
         name="SECONCT",
         group=_SETS,

@@ -180,14 +180,15 @@ def test_missing_enddata_is_a_notice(tmp_path):
     assert any("ENDDATA" in notice for notice in read_deck(path).notices)
 
 
-def test_superelements_are_refused_unless_asked_for(tmp_path):
+def test_superelements_are_joined_or_read_one_by_one(tmp_path):
     path = tmp_path / "a.bdf"
     path.write_text(
         "SOL 103\nCEND\nBEGIN BULK\nGRID,1\nSEBULK,1,PRIMARY\nSECONCT,1,0\n,1,1\n"
-        "BEGIN SUPER=1\nGRID,1\nGRID,2\nENDDATA\n"
+        "BEGIN SUPER=1\nGRID,1\nGRID,2,,1.\nENDDATA\n"
     )
-    with pytest.raises(InputError, match="BEGIN SUPER = 1"):
-        read_deck(path)
+    joined = read_deck(path)
+    assert len(joined.cards["GRID"]) == 2
+    assert any("solved as one model" in notice for notice in joined.notices)
     deck = read_deck(path, superelements=True)
     assert deck.superelements[1].cards["GRID"]["id"].tolist() == [1, 2]
     assert np.array_equal(deck.cards["SECONCT"]["gidas"][0], [1])

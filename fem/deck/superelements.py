@@ -1,0 +1,449 @@
+"""Superelements put together: the parts of BEGIN SUPER = n as one model.
+
+The parts are placed (SELOC), their points joined, by SECONCT or where they coincide,
+and solved with the residual structure. In statics that is what their reduction gives;
+in dynamics it is what the reduction approximates.
+
+Points, elements, properties, materials and coordinate systems of a part whose ids are
+in use get an offset. The basic frame of a part that is turned becomes a coordinate
+system, and what refers to the basic frame refers to it: nothing else has to be turned.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pandas as pd
+from scipy.spatial import cKDTree
+
+from fem.arrays import Float64, Int64
+from fem.deck.deck import Deck
+from fem.deck.records import TABLES, targets_of
+from fem.errors import InputError
+from fem.geometry.coordinates import resolve
+
+Tables = dict[str, pd.DataFrame]
+
+# Kinds of ids, by the name of the column that has them; others are shared by all parts.
+_KINDS = {"id": "point", "cid": "frame", "eid": "element", "pid": "property"}
+_KINDS |= {"mid": "material"}
+# What serves the reduction of a part and changes nothing in the whole.
+_OF_REDUCTION = ("ASET", "QSET", "OMIT", "SEBULK", "SECONCT", "SELOC", "EIGRL")
+# They act on all masses of a model, there on those of their part.
+_INERTIAL = ("GRAV", "RFORCE", "ACCEL1")
+_TOLERANCE = 1e-5
+_Point = tuple[int, int]  # superelement, id
+
+
+@dataclass(frozen=True)
+class Whole:
+    """The model in one piece, what is wrong with it and what is remarkable."""
+
+    cards: Mapping[str, pd.DataFrame]
+    problems: list[str]
+    notices: list[str]
+
+
+def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
+    """The residual structure with its superelements.
+
+    Args:
+        deck: main bulk data, with SEBULK, SECONCT, SELOC.
+        parts: bulk data of BEGIN SUPER = n.
+    """
+    problems = _unsupported(deck, parts)
+    notices = _other_parameters(deck, parts)
+    if problems:
+        return Whole(deck.cards, problems, notices)
+    tables = [dict(deck.cards)]
+    given = {0: _points(deck)}
+    maps = {0: {}}
+    for number, part in sorted(parts.items()):
+        own = {k: v for k, v in part.cards.items() if k not in _OF_REDUCTION}
+        frame = _placing(deck, part, number, problems)
+        maps[number] = _offsets(tables, own, number)
+        basic = 1 + max(_ids(own, "frame"), default=0) + maps[number]["frame"]
+        basic = max(basic, *(1 + i for t in tables for i in _ids(t, "frame")), 1)
+        tables.append(_renamed(own, maps[number], frame, basic))
+        notices += _said(number, maps[number])
+        given[number] = _points(part)
+    cards = _stacked(tables, problems)
+    if problems:
+        return Whole(cards, problems, notices)
+    joined = _joined(deck, given, maps, cards, problems)
+    cards = _merged(cards, joined, problems)
+    notices.append(
+        f"{len(parts)} superelements ({', '.join(map(str, sorted(parts)))}), joined at "
+        f"{len(joined)} points, are solved as one model: exact in statics, in dynamics "
+        "better than their reduction"
+    )
+    return Whole(cards, problems, notices)
+
+
+# -- what is asked for ----------------------------------------------------------------
+
+
+def _unsupported(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
+    problems = []
+    for _, row in deck.cards["SEBULK"].iterrows():
+        place = f"{row['file']}:{row['line']}: SEBULK {row['seid']}"
+        if row["type"] not in ("PRIMARY", "PRIM"):
+            problems.append(
+                f"{place}: type {row['type']}, expected PRIMARY with BEGIN SUPER = "
+                f"{row['seid']}"
+            )
+        elif row["seid"] not in parts:
+            problems.append(f"{place}: BEGIN SUPER = {row['seid']} is not in the deck")
+    for _, row in deck.cards["SELOC"].iterrows():
+        if row["seid"] not in parts:
+            place = f"{row['file']}:{row['line']}: SELOC {row['seid']}"
+            problems.append(f"{place}: BEGIN SUPER = {row['seid']} is not in the deck")
+    return problems
+
+
+def _other_parameters(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
+    notices = []
+    for number, part in sorted(parts.items()):
+        names = [k for k, v in part.params.items() if deck.params.get(k, v) != v]
+        if names:
+            notices.append(
+                f"superelement {number}: {', '.join(sorted(names))}: the values of the "
+                "main bulk data hold for all"
+            )
+    return notices
+
+
+def _points(deck: Deck) -> set[int]:
+    grids = deck.cards["GRID"]["id"].tolist()
+    return {*grids, *deck.cards["SPOINT"]["id"].tolist()}
+
+
+# -- places ---------------------------------------------------------------------------
+
+
+def _placing(
+    deck: Deck, part: Deck, number: int, problems: list[str]
+) -> tuple[Float64, Float64] | None:
+    """Axes (3, 3) and origin (3,) of the part's basic frame in the main one."""
+    rows = deck.cards["SELOC"]
+    rows = rows[rows["seid"] == number]
+    if rows.empty:
+        return None
+    row = rows.iloc[0]
+    name = f"{row['file']}:{row['line']}: SELOC {number}"
+    found = []
+    for own, which in ((part, "pa"), (deck, "pb")):
+        ids = [int(row[f"{which}{k}"]) for k in (1, 2, 3)]
+        grid = own.cards["GRID"]
+        absent = [str(i) for i in ids if i not in set(grid["id"])]
+        if absent:
+            where = "the superelement" if own is part else "the main bulk data"
+            problems.append(f"{name}: grid {', '.join(absent)} is not in {where}")
+            return None
+        _, xyz = resolve(own.cards["CORD"], grid)
+        found.append(xyz[[grid["id"].tolist().index(i) for i in ids]])
+    (first, own), (second, main) = ((_triad(xyz), xyz) for xyz in found)
+    sides = [np.linalg.norm(np.roll(x, 1, axis=0) - x, axis=1) for x in (own, main)]
+    if np.isnan(first).any() or np.isnan(second).any():
+        problems.append(f"{name}: its three points lie on a line")
+        return None
+    if np.abs(sides[0] - sides[1]).max() > 1e-3 * sides[0].max():
+        problems.append(
+            f"{name}: its points are {sides[0].tolist()} apart in the superelement and "
+            f"{sides[1].tolist()} in the main bulk data, expected the same triangle"
+        )
+    axes = second @ first.T
+    return axes, main[0] - axes @ own[0]
+
+
+def _triad(xyz: Float64) -> Float64:
+    """(3, 3) axes as columns: x from the first point to the second, y to the third."""
+    x, v = xyz[1] - xyz[0], xyz[2] - xyz[0]
+    z = np.cross(x, v)
+    if np.linalg.norm(z) < 1e-9 * np.linalg.norm(x) * np.linalg.norm(v):
+        return np.full((3, 3), np.nan)
+    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
+    return np.stack([x, np.cross(z, x), z], axis=1)
+
+
+# -- ids ------------------------------------------------------------------------------
+
+
+def _key(name: str) -> tuple[str, str]:
+    """Column with the ids of a table and their kind; "" where they are shared."""
+    column = next(iter(TABLES[name].columns))
+    return column, _KINDS.get(column, "") if TABLES[
+        name
+    ].ids or name == "PLOTEL" else ""
+
+
+def _ids(tables: Mapping[str, pd.DataFrame], kind: str) -> set[int]:
+    found: set[int] = set()
+    for name, table in tables.items():
+        column, own = _key(name)
+        if own == kind:
+            found.update(table[column].tolist())
+    return found
+
+
+def _offsets(whole: list[Tables], part: Tables, number: int) -> dict[str, int]:
+    """What is added to the ids of a part, by kind; 0 where they are free."""
+    offsets = {}
+    for kind in sorted(set(_KINDS.values())):
+        taken: set[int] = set().union(*(_ids(tables, kind) for tables in whole))
+        own = _ids(part, kind)
+        step = 10 ** len(str(max(taken | own, default=1)))
+        shift = 0 if taken.isdisjoint(own) else number * step
+        while not taken.isdisjoint({i + shift for i in own}):
+            shift += step
+        offsets[kind] = shift
+    return offsets
+
+
+def _said(number: int, offsets: Mapping[str, int]) -> list[str]:
+    shifted = [f"{kind} + {shift}" for kind, shift in offsets.items() if shift]
+    if not shifted:
+        return []
+    return [f"superelement {number}: ids in the results are {', '.join(shifted)}"]
+
+
+def _renamed(
+    part: Tables,
+    offsets: Mapping[str, int],
+    frame: tuple[Float64, Float64] | None,
+    basic: int,
+) -> Tables:
+    """The tables of a part with the ids that they have in the whole.
+
+    Args:
+        part: its tables.
+        offsets: added to its ids, by kind.
+        frame: axes and origin of its basic frame, None where that is the main one.
+        basic: the id that its basic frame gets.
+    """
+    basic = 0 if frame is None else basic
+    tables = {}
+    for name, table in part.items():
+        table = table.copy()
+        for column, kind in _columns_with_ids(name):
+            if column in table:
+                ground = basic if kind == "frame" else 0
+                table[column] = _shifted(table[column], offsets[kind], ground)
+        tables[name] = table
+    if frame is not None:
+        tables["CORD"] = _with_basic(tables["CORD"], basic, *frame)
+    return tables
+
+
+def _columns_with_ids(name: str) -> Iterator[tuple[str, str]]:
+    """Columns of a table that hold ids, with their kinds."""
+    key, own = _key(name)
+    if own:
+        yield key, own
+    if name == "CORD":
+        yield from (("rid", "frame"), ("g1", "point"), ("g2", "point"), ("g3", "point"))
+    for column, item in TABLES[name].columns.items():
+        if item.targets and (column != key or not own):
+            target = targets_of(item.targets[0])[0]
+            kind = "frame" if target == "CORD" else _key(target)[1]
+            if kind:
+                yield column, kind
+
+
+def _shifted(values: pd.Series, shift: int, ground: int) -> pd.Series:
+    """Ids moved; 0 becomes `ground`, what is below is no id."""
+
+    def moved(ids: Int64) -> Int64:
+        return np.where(ids > 0, ids + shift, np.where(ids == 0, ground, ids))
+
+    if values.dtype != object:
+        return pd.Series(moved(values.to_numpy(np.int64)), values.index)
+    column = np.empty(len(values), dtype=object)
+    for row, value in enumerate(values):
+        column[row] = moved(np.asarray(value, dtype=np.int64))
+    return pd.Series(column, values.index)
+
+
+def _with_basic(
+    table: pd.DataFrame, cid: int, axes: Float64, origin: Float64
+) -> pd.DataFrame:
+    """Coordinate systems of a part with the part's own basic frame."""
+    row = dict.fromkeys(table.columns, 0)
+    points = {"a": origin, "b": origin + axes[:, 2], "c": origin + axes[:, 0]}
+    row |= {f"{p}{k + 1}": float(x[k]) for p, x in points.items() for k in range(3)}
+    row |= {"cid": cid, "type": "R", "form": 2, "file": "", "rid": 0}
+    return pd.concat([table, pd.DataFrame([row])], ignore_index=True)
+
+
+# -- together -------------------------------------------------------------------------
+
+
+def _stacked(tables: list[Tables], problems: list[str]) -> Tables:
+    """One table per card. Inertial loads must be those of all parts."""
+    cards = {}
+    for name in tables[0]:
+        present = [t[name] for t in tables if name in t and len(t[name])]
+        stacked = pd.concat(present, ignore_index=True) if present else tables[0][name]
+        said = [c for c in stacked.columns if c not in ("file", "line", "card")]
+        if name in _INERTIAL and len(present):
+            one = {t[said].to_string(index=False) for t in present}
+            if len(one) > 1 or len(present) < len(tables):
+                problems.append(
+                    f"{name}: it acts on the masses of its own superelement only, not "
+                    "supported here; expected the same in all of them"
+                )
+            stacked = present[0]
+        elif name in (
+            "LOAD",
+            "SPCADD",
+            "MPCADD",
+            "NSMADD",
+            "TABLED1",
+            "TSTEP",
+            "DLOAD",
+        ):
+            text = stacked[said].astype(str)
+            stacked = stacked[~text.duplicated()].reset_index(drop=True)
+        cards[name] = stacked
+    return cards
+
+
+def _joined(
+    deck: Deck,
+    given: Mapping[int, set[int]],
+    maps: Mapping[int, Mapping[str, int]],
+    cards: Tables,
+    problems: list[str],
+) -> dict[int, int]:
+    """Point -> the point of another part that takes its place."""
+
+    def name(point: _Point) -> int:
+        return point[1] + maps[point[0]].get("point", 0)
+
+    pairs = []
+    for _, row in deck.cards["SECONCT"].iterrows():
+        for ends in zip(row["gidas"].tolist(), row["gidbs"].tolist()):
+            points = list(zip((int(row["sea"]), int(row["seb"])), ends))
+            absent = [p for p in points if p[1] not in given.get(p[0], set())]
+            if absent:
+                problems.append(
+                    f"{row['file']}:{row['line']}: SECONCT: superelement "
+                    f"{absent[0][0]} has no point {absent[0][1]}"
+                )
+            else:
+                pairs.append((name(points[0]), name(points[1])))
+    manual = deck.cards["SEBULK"]
+    manual = set(manual["seid"][manual["method"].str.startswith("MAN")].tolist())
+    owner = {name((n, i)): n for n, ids in given.items() for i in ids}
+    pairs += [
+        (a, b)
+        for a, b in _coincident(cards, owner, deck.cards["SEBULK"])
+        if not manual & {owner[a], owner[b]}
+    ]
+    order = sorted(owner, key=lambda point: (owner[point], point))
+    rank = {point: k for k, point in enumerate(order)}
+    home = {point: point for point in owner}
+
+    def root(point: int) -> int:
+        while home[point] != point:
+            point = home[point]
+        return point
+
+    for a, b in pairs:
+        first, second = sorted((root(a), root(b)), key=rank.__getitem__)
+        home[second] = first
+    return {point: root(point) for point in owner if root(point) != point}
+
+
+def _coincident(
+    cards: Tables, owner: Mapping[int, int], sebulk: pd.DataFrame
+) -> Iterator[tuple[int, int]]:
+    """Pairs of grids of different superelements at one place."""
+    grid = cards["GRID"]
+    _, xyz = resolve(cards["CORD"], grid)
+    tolerance = float(sebulk["tol"].max()) if len(sebulk) else _TOLERANCE
+    ids = grid["id"].tolist()
+    for a, b in sorted(cKDTree(xyz).query_pairs(tolerance)):
+        if owner[ids[a]] != owner[ids[b]]:
+            yield ids[a], ids[b]
+
+
+def _merged(cards: Tables, joined: Mapping[int, int], problems: list[str]) -> Tables:
+    """Tables in which joined points are one; those with axes of their own are tied."""
+    grid = cards["GRID"]
+    frames, xyz = resolve(cards["CORD"], grid)
+    at = {int(i): k for k, i in enumerate(grid["id"])}
+    cd = np.maximum(grid["cd"].to_numpy(np.int64), 0)
+    axes = frames.triads(cd, xyz)
+    replaced, tied = {}, []
+    for point, other in joined.items():
+        alike = (point in at) == (other in at)
+        if not alike:
+            problems.append(f"SECONCT: {point} and {other}: a grid and a scalar point")
+        elif point in at and not np.allclose(axes[at[point]], axes[at[other]]):
+            tied.append((point, other))
+        else:
+            replaced[point] = other
+    if problems:
+        return cards
+    merged = {
+        name: _with_points(name, table, replaced) for name, table in cards.items()
+    }
+    for name in ("GRID", "SPOINT"):
+        table = merged[name]
+        merged[name] = table[~table["id"].isin(list(replaced))].reset_index(drop=True)
+    grid = merged["GRID"]
+    for point, other in replaced.items():
+        if point in at:
+            digits = {*cards["GRID"]["ps"][at[point]]}
+            row = grid.index[grid["id"] == other][0]
+            grid.at[row, "ps"] = "".join(sorted(digits | {*grid.at[row, "ps"]}))
+    merged["RBE2"] = _with_ties(merged["RBE2"], tied, _ids(merged, "element"))
+    return merged
+
+
+def _with_points(
+    name: str, table: pd.DataFrame, replaced: Mapping[int, int]
+) -> pd.DataFrame:
+    """A table in which other points stand for those that are replaced."""
+    if not replaced or name in ("GRID", "SPOINT"):
+        return table
+    table = table.copy()
+    for column, kind in _columns_with_ids(name):
+        if kind != "point" or column not in table:
+            continue
+        values = table[column]
+        if values.dtype != object:
+            table[column] = values.replace(replaced)
+            continue
+        changed = np.empty(len(values), dtype=object)
+        for row, value in enumerate(values):
+            ids = np.asarray(value, dtype=np.int64)
+            changed[row] = np.array([replaced.get(int(i), int(i)) for i in ids.ravel()])
+        table[column] = changed
+    return table
+
+
+def _with_ties(
+    table: pd.DataFrame, tied: list[tuple[int, int]], taken: set[int]
+) -> pd.DataFrame:
+    """RBE2 with those between joined grids whose displacement axes differ."""
+    if not tied:
+        return table
+    start = max(taken, default=0) + 1
+    rows = [
+        {"eid": start + k, "gn": other, "cm": "123456", "gms": np.array([point])}
+        for k, (point, other) in enumerate(tied)
+    ]
+    new = pd.DataFrame(rows).assign(file="", line=0, card="RBE2")
+    new = new.reindex(columns=[c for c in new if c in table])
+    return pd.concat([table, new], ignore_index=True)
+
+
+def in_one_piece(deck: Deck, parts: Mapping[int, Deck]) -> tuple[Deck, Whole]:
+    """The deck whose tables are those of `join`."""
+    try:
+        whole = join(deck, parts)
+    except InputError as error:
+        whole = Whole(deck.cards, list(error.problems), [])
+    return replace(deck, cards=whole.cards), whole
