@@ -1,8 +1,8 @@
 """Plausibility of the loads of every preset of CS-25, and what each run keeps.
 
-    OPENBLAS_NUM_THREADS=1 python -m benchmarks.presets [con] [pre] [--hz 50] [--write]
+    python -m benchmarks.presets [con] [pre] [--hz 50] [--text] [--write]
 
-Prints the tables of `docs/presets.md`; with `--write` puts them there.
+Prints the tables of `docs/conditions.md`; with `--write` puts them there.
 """
 
 import argparse
@@ -28,6 +28,9 @@ from drake_landing.case.presets import (
 )
 from drake_landing.case.reading import parse_case
 from drake_landing.case.scenario import Scenario
+from drake_landing.conditions.cs23 import CS23
+from drake_landing.conditions.cs25 import CS25
+from drake_landing.conditions.paragraph import Paragraph
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.lift import STANDARD_GRAVITY, aircraft_mass_centre
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
@@ -36,7 +39,7 @@ from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.practices import rigid
 from systems.airframe.modal_body import ModalBody
 
-PAGE = Path(__file__).resolve().parents[1] / "docs" / "presets.md"
+PAGE = Path(__file__).resolve().parents[1] / "docs" / "conditions.md"
 
 # An independent rigid model of three freedoms and the wheels' spin, of this aircraft:
 # preset, sink rate, mass in t, then stroke (m) and tyre load (kN) of one main gear and
@@ -234,15 +237,25 @@ def put(page: str, name: str, lines: Sequence[str]) -> str:
     return replaced
 
 
+def rules(paragraphs: Sequence[Paragraph]) -> Iterator[str]:
+    """Table of a rule: what it asks for and what the program does."""
+    yield "| § | condition | the rule | the program | text |"
+    yield "|---|---|---|---|---|"
+    for p in paragraphs:
+        yield f"| {p.number} | {p.title} | {p.rule} | {p.does} | {p.mark} |"
+
+
 def main() -> None:
     """Prints the tables, and writes them where that is wanted."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("levels", nargs="*", default=["con", "pre"])
+    parser.add_argument("--text", action="store_true", help="tables without runs")
     parser.add_argument("--hz", type=float, default=50.0)
     parser.add_argument("--write", action="store_true")
     arguments = parser.parse_args()
     found = {"conditions": list(conditions())}
-    for level in arguments.levels:
+    found |= {"rules_cs25": list(rules(CS25)), "rules_cs23": list(rules(CS23))}
+    for level in [] if arguments.text else arguments.levels:
         found |= tables(level, arguments.hz)
     page = PAGE.read_text(encoding="utf-8")
     for name, lines in found.items():

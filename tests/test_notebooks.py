@@ -80,7 +80,7 @@ vertical = main["vertical / kN"]
 assert vertical["three_point"] < vertical["two_point"] < vertical["tail_down"]
 assert 1.25 < vertical["reserve_energy"] / vertical["two_point"] < 1.4
 assert table["vertical / kN"]["tail_down"]["nose"] == 0
-one = table["vertical / kN"]["one_gear"]
+one = table["vertical / kN"]["rolled"]
 assert 1 / 3 < one["main_left"] / one["main_right"] < 0.42
 assert main["side / kN"]["drift"] > 0
 assert vertical["drift"] > 2 * table["vertical / kN"]["drift"]["main_right"]

@@ -34,6 +34,8 @@ class Aircraft:
         units: of the deck; what `structure` gives is SI.
         notices: what the user should know.
         read: how the file becomes a deck; matrices come with all their digits.
+        steady: (f, 1) loads of steady flight at 1 g, as the case gives them.
+        check: raises where the structure is not as the case wants it: a mass case.
         parametric: who wrote the deck, where it is not the user's own.
     """
 
@@ -48,6 +50,8 @@ class Aircraft:
     notices: tuple[str, ...] = ()
     read: Callable[[Path], Deck] = read_deck
     parametric: ParametricAircraft | None = None
+    steady: Callable[[Structure], Float64] | None = None
+    check: Callable[[Structure], None] | None = None
 
     def structure(self) -> Structure:
         """The airframe's finite-element model.
@@ -55,12 +59,17 @@ class Aircraft:
         Raises:
             InputError: everything that is wrong with its deck.
         """
-        return Structure.from_deck(self.read(self.deck))
+        structure = Structure.from_deck(self.read(self.deck))
+        if self.check is not None:
+            self.check(structure)
+        return structure
 
     @property
     def steady_load(self) -> Callable[[Structure], Float64] | None:
         """Loads of steady flight at 1 g from a structure, where they are known."""
-        return self.parametric.steady_load if self.parametric else None
+        if self.parametric is not None:
+            return self.parametric.steady_load
+        return self.steady
 
     def known_places(self, structure: Structure) -> Places | None:
         """Where one looks at this aircraft, if its generator knows."""

@@ -15,7 +15,7 @@ PresetName = Literal[
     "three_point",
     "two_point",
     "tail_down",
-    "one_gear",
+    "rolled",
     "drift",
     "rebound",
     "taxi_bump",
@@ -87,11 +87,10 @@ PRESETS: dict[PresetName, Preset] = {
         remarks="forward_speed from V_L1 to V_L2; pitch of the stall, or the largest "
         "that keeps the tail clear of the runway",
         duration=0.5,
-        static_ratios={"drag": 0.25},
     ),
-    "one_gear": Preset(
-        paragraph="25.483",
-        title="one-gear landing",
+    "rolled": Preset(
+        paragraph="beside 25.483",
+        title="rolled landing, one main gear first",
         values={
             "sink_rate": LANDING_SINK_RATE,
             "forward_speed": 67.0,
@@ -100,13 +99,14 @@ PRESETS: dict[PresetName, Preset] = {
         },
         mass=_LANDING_MASS,
         remarks="the starboard main gear touches first, the inertia of the aircraft "
-        "resists; the other gear follows as the aircraft rolls back",
+        "resists; the other gear follows as the aircraft rolls back. Not the rule's "
+        "condition, which takes the load of the level landing on one side "
+        "(drake-landing conditions): a rolled landing loads the gear more",
         duration=0.5,
         symmetric=False,
-        static_ratios={"drag": 0.25},
     ),
     "drift": Preset(
-        paragraph="25.479(d)(2), 25.485",
+        paragraph="25.479(d)(2)",
         title="lateral drift landing",
         values={
             "sink_rate": LANDING_SINK_RATE,
@@ -116,8 +116,9 @@ PRESETS: dict[PresetName, Preset] = {
         },
         mass=_LANDING_MASS,
         remarks="yaw is the side-slip on the runway: the track is along it. Without "
-        "rational analysis 75 % of the largest vertical load with 40 % of it as drag "
-        "and 25 % to the side; 25.485: half of it, 80 % inward and 60 % outward",
+        "rational analysis 75 % of the largest vertical load, with 40 % of that as "
+        "drag and 25 % to the side; 25.485 is a condition of its own (drake-landing "
+        "conditions)",
         duration=0.5,
         symmetric=False,
         static_ratios={"drag": 0.40, "side": 0.25},
@@ -128,8 +129,8 @@ PRESETS: dict[PresetName, Preset] = {
         values={"sink_rate": LANDING_SINK_RATE, "forward_speed": 67.0, "pitch": 2.0},
         mass=_LANDING_MASS,
         remarks="a two-point landing, long enough for the gears to reach their "
-        "extension stops in the air; compare the acceleration of the unsprung parts "
-        "with the 20 g of 25.487(b)",
+        "extension stops in the air. 25.487(b) in any case asks for 20 g on the "
+        "unsprung parts (drake-landing conditions)",
         duration=1.2,
     ),
     "taxi_bump": Preset(

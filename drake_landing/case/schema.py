@@ -26,10 +26,12 @@ from pydantic import (
 from drake_landing.case.bushing import Bushing
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
+from drake_landing.case.mass_cases import MassCase, known_mass_case
 from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
 from drake_landing.case.section import Section, number
+from drake_landing.case.steady import Steady
 from drake_landing.files import relative_to_case
 from drake_landing.gears.data import AnyGear
 from drake_landing.parametric import registered
@@ -219,6 +221,22 @@ class Airframe(Section):
         "their own",
     )
 
+    mass_cases: dict[str, MassCase] = Field(
+        default={},
+        description="name -> what a loading of the airframe adds to its point masses, "
+        "or takes from them",
+    )
+    mass_case: str | None = Field(
+        default=None,
+        description="which of mass_cases; default the deck as it is. In a campaign an "
+        "axis like others: airframe.mass_case: [full, empty]",
+    )
+    steady: Steady | None = Field(
+        default=None,
+        description="steady flight at 1 g of a deck of the user's: stresses upon which "
+        "margins are formed; the built-in models have their own",
+    )
+
     @field_validator("model", mode="after")
     @classmethod
     def _registered(cls, model: str | None) -> str | None:
@@ -242,6 +260,14 @@ class Airframe(Section):
             names = ", ".join(registered())
             raise ValueError(
                 f"give one of `model` ({names}), `deck` (a file) or `matrices`"
+            )
+        known_mass_case(self.mass_case, self.mass_cases)
+        if self.mass_case and self.matrices:
+            raise ValueError("mass_case: found one with `matrices`, expected `deck`")
+        if self.steady and self.model:
+            raise ValueError(
+                "steady: found one beside `model`, expected none: built-in models have "
+                "their own"
             )
         if self.units != "SI" and self.model:
             raise ValueError(

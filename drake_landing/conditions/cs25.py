@@ -48,7 +48,7 @@ CS25: tuple[Paragraph, ...] = (
         title="level landing",
         rule="main wheels with the nose wheel just clear, and all wheels; speeds from "
         "V_L1 to 1.25 V_L2",
-        does="dynamic presets; scenario.speeds gives V_L1, V_L2",
+        does="dynamic presets at the speeds that the case gives",
         presets=("two_point", "three_point"),
     ),
     Paragraph(
@@ -85,10 +85,10 @@ CS25: tuple[Paragraph, ...] = (
         title="one-gear landing",
         rule="level, one main gear: the loads of that side of 25.479(d)(1); the "
         "unbalanced ones are reacted by inertia",
-        does="static cases for each main gear; history: preset one_gear, one side of "
-        "the two-point landing",
+        does="static cases for each main gear; preset rolled is another condition, "
+        "with larger loads",
         cases=landing.one_gear,
-        presets=("one_gear",),
+        presets=("rolled",),
         needs=_LANDING,
     ),
     Paragraph(
@@ -126,7 +126,7 @@ CS25: tuple[Paragraph, ...] = (
         "static case",
         mark="secondary",
         cases=handling.taxi,
-        presets=("taxi_bump", "take_off_run", "landing_roll"),
+        presets=("taxi_bump",),
     ),
     Paragraph(
         number="25.493(b)",

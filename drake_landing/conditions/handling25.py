@@ -46,7 +46,7 @@ def taxi(aircraft: GroundAircraft) -> Iterator[BookCase]:
             for g, z in _rest(aircraft, aircraft.gears)
         ),
         pose="static",
-        note="discrete load of AMC 25.491; profiles: presets taxi and take_off_run",
+        note="discrete load of AMC 25.491; profiles: scenario.runway.profile",
     )
 
 

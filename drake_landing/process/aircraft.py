@@ -7,16 +7,21 @@ from pathlib import Path
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.damping import with_damping
+from drake_landing.airframe.mass_cases import check_target, write_mass_case
+from drake_landing.airframe.steady import steady_flight
+from drake_landing.case.axes import rotation_AB
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.case.schema import Airframe, Case, Matrices
 from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from drake_landing.reduced.legs import with_read_legs
+from fem.arrays import Float64
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
 from fem.errors import InputError, nearest
+from fem.model.structure import Structure
 
 
 def prepare_aircraft(case: Case, out: Path) -> Aircraft:
@@ -37,8 +42,10 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             raise InputError(f"airframe.deck: {_not_a_file(deck)}")
         assert not isinstance(case.gears, str)  # the case sees to it
         gears, notices = with_read_legs(case.gears)
+        name = deck.stem
+        deck = _with_mass_case(airframe, deck, out)
         return Aircraft(
-            name=deck.stem,
+            name=name,
             topology=airframe.topology or "",
             deck=deck,
             units=airframe.units,
@@ -48,6 +55,8 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
             monitoring=airframe.monitoring,
             scenario=_with_lift_nodes(case.scenario),
             interface=airframe.interface,
+            steady=_steady(airframe, gears),
+            check=_mass_check(airframe, gears),
         )
     model = parametric_aircraft(airframe.model)
     out.mkdir(parents=True, exist_ok=True)
@@ -57,7 +66,7 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
     return Aircraft(
         name=written.name,
         topology=written.topology,
-        deck=out / "airframe.bdf",
+        deck=_with_mass_case(airframe, out / "airframe.bdf", out),
         gears=gears,
         notices=notices,
         monitoring={**written.monitoring, **airframe.monitoring},
@@ -65,7 +74,41 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         interface=tuple(sorted({*written.interface, *airframe.interface})),
         parametric=model,
         read=_damped(read_deck, airframe.damping),
+        check=_mass_check(airframe, gears),
     )
+
+
+def _with_mass_case(airframe: Airframe, deck: Path, out: Path) -> Path:
+    """The deck of the mass case, written to `out`, or the deck itself."""
+    if airframe.mass_case is None:
+        return deck
+    given = airframe.mass_cases[airframe.mass_case]
+    out.mkdir(parents=True, exist_ok=True)
+    path = out / f"{deck.stem}_{airframe.mass_case}.bdf"
+    field = f"airframe.mass_cases.{airframe.mass_case}"
+    write_mass_case(given.deck or deck, given, path, field)
+    return path
+
+
+def _mass_check(
+    airframe: Airframe, gears: tuple[LandingGear, ...]
+) -> Callable[[Structure], None] | None:
+    """Whether the mass case weighs what it should."""
+    if airframe.mass_case is None:
+        return None
+    given = airframe.mass_cases[airframe.mass_case]
+    field = f"airframe.mass_cases.{airframe.mass_case}"
+    return lambda structure: check_target(structure, gears, given, field)
+
+
+def _steady(
+    airframe: Airframe, gears: tuple[LandingGear, ...]
+) -> Callable[[Structure], Float64] | None:
+    """Steady flight that the case gives."""
+    given, R_AB = airframe.steady, rotation_AB(airframe.axes)
+    if given is None:
+        return None
+    return lambda structure: steady_flight(structure, gears, given, R_AB)
 
 
 def _damped(

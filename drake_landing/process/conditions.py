@@ -285,7 +285,7 @@ class _Answers:
 def _case_table(balances: list[RigidBalance]) -> pd.DataFrame:
     rows = []
     for number, b in enumerate(balances, 1):
-        aft, side, up = b.factors
+        aft, side, up = np.where(np.abs(b.factors) < 1e-9, 0.0, b.factors)
         rows.append(
             {
                 "case": number,

@@ -21,6 +21,7 @@ from drake_landing.airframe.free_flight import check_free_flight, check_mass
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.airframe.gear_places import clearances, pitch_of_all
 from drake_landing.airframe.load_shapes import load_model
+from drake_landing.airframe.mass_cases import loaded
 from drake_landing.airframe.pulses import GearPulses
 from drake_landing.airframe.relevance import ModalModel
 from drake_landing.airframe.selection import expected_pulses
@@ -239,7 +240,9 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
     energy = 0.5 * mass * s.sink_rate**2
     yield _line("scenario", f"{s.story}; {s.lift_story}")
     sinks = f", sink energy {energy / 1e3:.1f} kJ" * (s.start == "touchdown")
-    yield _line("", f"{mass:,.1f} kg in all{sinks}")
+    x, y, z = loaded(structure, aircraft.gears).center
+    with_gears = f"centre of gravity with gears at {x:z.3f}, {y:z.3f}, {z:z.3f} m"
+    yield _line("", f"{mass:,.1f} kg in all, {with_gears}{sinks}")
 
 
 def _run(

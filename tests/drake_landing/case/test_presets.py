@@ -58,9 +58,9 @@ def test_loads_are_those_of_the_condition(preset_run):
     if PRESETS[name].values.get("start") != "rolling":
         assert loads["stroke"]["main_right"] > 0.25
         assert drag["main_right"] > 0.6  # spin-up
-    if name in ("tail_down", "one_gear"):
+    if name in ("tail_down", "rolled"):
         assert vertical["nose"] == 0.0
-    if name == "one_gear":
+    if name == "rolled":
         assert vertical["main_right"] > 5 * vertical["main_left"]
     if name == "drift":
         # Nose to starboard of the track: the runway pushes to starboard, in line with

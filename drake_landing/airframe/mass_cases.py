@@ -1,0 +1,172 @@
+"""Mass cases: the deck of a loading, and whether it weighs what it should.
+
+The deck of a mass case is written out, its INCLUDEs in place, with the point masses
+that the case adds, scales and leaves out. Everything that starts from the aircraft's
+deck, the decks of landing and static cases among it, has that mass.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from drake_landing.case.mass_cases import MassCase, Span, holds_id
+from drake_landing.gears.bodies import mass_points
+from drake_landing.gears.data import LandingGear
+from fem.arrays import Float64
+from fem.deck.lexer import RawCard, read_cards, without_cards
+from fem.deck.sections import split_sections
+from fem.deck.source import Line, read_source
+from fem.deck.values import real
+from fem.errors import InputError
+from fem.files.aside import written_aside
+from fem.model.structure import Structure
+
+_MASS, _INERTIA = 4, range(9, 15)  # fields of CONM2
+TOLERANCE = 0.01
+
+
+def write_mass_case(source: Path, given: MassCase, path: Path, field: str) -> None:
+    """The deck of a mass case.
+
+    Args:
+        source: the deck.
+        given: what changes.
+        path: of the file to write.
+        field: of the case, `airframe.mass_cases.<name>`, for messages.
+
+    Raises:
+        InputError: ids that no CONM2 has, cards that are none, a deck that cannot be
+            read.
+    """
+    text = read_source(source)
+    sections = split_sections(text.lines, str(source))
+    masses = {
+        int(card.field(1)): card
+        for card in read_cards(sections.bulk).cards
+        if card.name == "CONM2"
+    }
+    problems = _unknown(masses, given.remove, f"{field}.remove")
+    for i, scaled in enumerate(given.scale):
+        problems += _unknown(masses, scaled.elements, f"{field}.scale.{i}.elements")
+    added: list[Line] = []
+    if given.add is not None:
+        added = list(read_source(given.add).lines)
+        other = {c.name for c in read_cards(added).cards} - {"CONM2", "ENDDATA"}
+        problems += [
+            f"{field}.add: found {name} in {given.add.name}, expected CONM2 alone"
+            for name in sorted(other)
+        ]
+    if problems:
+        raise InputError(problems)
+    factors = {number: _factor(given, number) for number in masses}
+
+    def changed(card: RawCard) -> bool:
+        return card.name == "CONM2" and factors[int(card.field(1))] != 1.0
+
+    head = text.lines[: len(text.lines) - len(sections.bulk)] if sections.bulk else []
+    with written_aside(path) as part, part.open("w", encoding="utf-8") as file:
+        file.writelines(f"{line.text}\n" for line in head)
+        bulk = without_cards(sections.bulk, changed)
+        file.writelines(f"{line.text}\n" for line in bulk)
+        for number, factor in factors.items():
+            if factor not in (0.0, 1.0):
+                file.write(_scaled(masses[number], factor) + "\n")
+        file.writelines(
+            f"{line.text}\n"
+            for line in added
+            if not line.text.upper().startswith("ENDDATA")
+        )
+        file.write("ENDDATA\n")
+
+
+def _factor(given: MassCase, number: int) -> float:
+    """On the mass of a CONM2; 0 where it is left out."""
+    if holds_id(given.remove, number):
+        return 0.0
+    factor = 1.0
+    for scaled in given.scale:
+        if holds_id(scaled.elements, number):
+            factor *= scaled.factor
+    return factor
+
+
+def _unknown(
+    masses: dict[int, RawCard], spans: tuple[int | Span, ...], field: str
+) -> list[str]:
+    """Ids and spans that no CONM2 has."""
+    return [
+        f"{field}: found {span}, but no CONM2 has such an id"
+        for span in spans
+        if not any(holds_id((span,), number) for number in masses)
+    ]
+
+
+def _scaled(card: RawCard, factor: float) -> str:
+    """A CONM2 in free fields, times a factor."""
+    fields = [card.field(k) for k in range(15)]
+    for k in (_MASS, *_INERTIA):
+        if fields[k]:
+            fields[k] = repr(factor * real(fields[k]))
+    return ",".join(fields[:9]) + "\n," + ",".join(fields[9:])
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Loaded:
+    """Mass and centre of gravity of an aircraft, in the deck's axes, gears extended.
+
+    Attributes:
+        mass: with gears, kg.
+        center: (3,) m.
+        inertia: (3, 3) about it, of the airframe and the gears as points, kg m².
+        airframe: mass without gears, kg.
+    """
+
+    mass: float
+    center: Float64
+    inertia: Float64
+    airframe: float
+
+
+def loaded(structure: Structure, gears: tuple[LandingGear, ...]) -> Loaded:
+    """Of an airframe with its gears, B."""
+    own = structure.rigid_mass
+    items = [(own.total, own.center), *(p for g in gears for p in mass_points(g))]
+    mass = sum(m for m, _ in items)
+    center = np.sum([m * np.asarray(p) for m, p in items], axis=0) / mass
+    inertia = own.inertia.copy()
+    for m, p in items:
+        r = np.asarray(p) - center
+        inertia += m * (r @ r * np.eye(3) - np.outer(r, r))
+    return Loaded(mass=mass, center=center, inertia=inertia, airframe=own.total)
+
+
+def check_target(
+    structure: Structure, gears: tuple[LandingGear, ...], given: MassCase, field: str
+) -> None:
+    """The mass case weighs what it says.
+
+    Raises:
+        InputError: mass off by more than 1 %, or the centre of gravity by more than
+            the tolerance.
+    """
+    problems = list(_off_target(loaded(structure, gears), given, field))
+    if problems:
+        raise InputError(problems)
+
+
+def _off_target(found: Loaded, given: MassCase, field: str) -> Iterator[str]:
+    if given.mass is not None and abs(found.mass / given.mass - 1.0) > TOLERANCE:
+        yield (
+            f"{field}.mass: found {found.mass:,.1f} kg with gears "
+            f"({found.airframe:,.1f} kg without), expected {given.mass:,.1f} kg to 1 %"
+        )
+    if given.cg is not None:
+        away = float(np.linalg.norm(found.center - given.cg))
+        if away > given.cg_tolerance:
+            x, y, z = found.center
+            yield (
+                f"{field}.cg: found {x:.3f}, {y:.3f}, {z:.3f} m, {away:.3f} m away, "
+                f"expected within {given.cg_tolerance:g} m"
+            )

@@ -1,0 +1,120 @@
+"""Mass cases and steady flight of a deck of one's own."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drake_landing.airframe.mass_cases import loaded
+from drake_landing.case.reading import parse_case
+from drake_landing.parts.slices import balanced
+from drake_landing.process.aircraft import prepare_aircraft
+from fem.errors import InputError
+
+HERE = Path(__file__).resolve().parents[1]
+TINY = (HERE / "tiny_case.yaml").read_text()
+
+
+def case_with(airframe: str, folder: Path):
+    """The beam aircraft with more in its section `airframe`."""
+    text = TINY.replace("  select: count 6\n", f"  select: count 6\n{airframe}")
+    deck = HERE / "tiny_aircraft.bdf"
+    return parse_case(text.replace("tiny_aircraft.bdf", str(deck)), folder=folder)
+
+
+def masses() -> dict[int, float]:
+    """CONM2 of the deck."""
+    aircraft = prepare_aircraft(case_with("", HERE), HERE)
+    rows = aircraft.read(aircraft.deck).cards["CONM2"]
+    return dict(zip(rows.eid.tolist(), rows["m"].tolist()))
+
+
+def test_three_mass_cases_weigh_what_they_add_scale_and_leave_out(tmp_path):
+    (tmp_path / "fuel.bdf").write_text("CONM2,9001,24,,30.\nCONM2,9002,34,,30.\n")
+    own = masses()
+    one, two = sorted(own)[:2]
+    cases = f"""  mass_cases:
+    full: {{add: fuel.bdf}}
+    less: {{scale: [{{elements: [{one}], factor: 0.5}}]}}
+    none: {{remove: [{two}]}}
+  mass_case: """
+    found = {}
+    for name in ("full", "less", "none"):
+        aircraft = prepare_aircraft(case_with(cases + name + "\n", tmp_path), tmp_path)
+        found[name] = aircraft.structure().rigid_mass.total
+    plain = prepare_aircraft(case_with("", tmp_path), tmp_path).structure()
+    total = plain.rigid_mass.total
+    assert found["full"] == pytest.approx(total + 60.0)
+    assert found["less"] == pytest.approx(total - 0.5 * own[one])
+    assert found["none"] == pytest.approx(total - own[two])
+
+
+def test_stiffness_is_that_of_the_deck(tmp_path):
+    (tmp_path / "fuel.bdf").write_text("CONM2,9001,24,,30.\n")
+    given = "  mass_cases: {full: {add: fuel.bdf}}\n  mass_case: full\n"
+    other = prepare_aircraft(case_with(given, tmp_path), tmp_path).structure()
+    plain = prepare_aircraft(case_with("", tmp_path), tmp_path).structure()
+    assert abs(other.stiffness - plain.stiffness).max() == 0.0
+
+
+def test_a_target_missed_by_more_than_a_percent_is_refused(tmp_path):
+    given = "  mass_cases: {a: {mass: %g, cg: [%g, 0, 0.0]}}\n  mass_case: a\n"
+    plain = prepare_aircraft(case_with("", tmp_path), tmp_path)
+    whole = loaded(plain.structure(), plain.gears)
+    near = given % (1.009 * whole.mass, whole.center[0])
+    prepare_aircraft(case_with(near, tmp_path), tmp_path).structure()
+    far = given % (1.011 * whole.mass, whole.center[0] + 0.3)
+    aircraft = prepare_aircraft(case_with(far, tmp_path), tmp_path)
+    with pytest.raises(InputError) as error:
+        aircraft.structure()
+    assert [p.split(":")[0] for p in error.value.problems] == [
+        "airframe.mass_cases.a.mass",
+        "airframe.mass_cases.a.cg",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ("remove: [77777]", "no CONM2 has such an id"),
+        ("scale: [{elements: [[8000, 8999]], factor: 2}]", "no CONM2"),
+        ("add: beams.bdf", "found CBAR in beams.bdf, expected CONM2 alone"),
+    ],
+)
+def test_what_does_not_fit_the_deck_is_named(tmp_path, given, message):
+    (tmp_path / "beams.bdf").write_text("CBAR,9001,1,1,2,0.,0.,1.\n")
+    text = f"  mass_cases: {{a: {{{given}}}}}\n  mass_case: a\n"
+    with pytest.raises(InputError, match=message):
+        prepare_aircraft(case_with(text, tmp_path), tmp_path)
+
+
+def test_an_unknown_mass_case_names_the_nearest(tmp_path):
+    text = "  mass_cases: {full: {}}\n  mass_case: ful\n"
+    with pytest.raises(InputError, match="did you mean 'full'"):
+        case_with(text, tmp_path)
+
+
+def test_steady_flight_over_nodes_is_1_g_without_rotation(tmp_path):
+    text = "  steady: {nodes: [24, 34, 1, 9]}\n"
+    aircraft = prepare_aircraft(case_with(text, tmp_path), tmp_path)
+    structure = aircraft.structure()
+    load = aircraft.steady_load(structure)
+    motion = balanced(structure, load).motion[:, 0]
+    rigid = np.linalg.lstsq(structure.rigid_body, motion, rcond=None)[0]
+    assert rigid == pytest.approx([0, 0, 9.80665, 0, 0, 0], abs=1e-6)
+
+
+def test_a_load_set_must_carry_the_weight(tmp_path):
+    lines = (
+        (HERE / "tiny_aircraft.bdf")
+        .read_text()
+        .replace("ENDDATA", "FORCE,100,5,,1000.,0.,0.,1.\nENDDATA")
+    )
+    (tmp_path / "own.bdf").write_text(lines)
+    text = TINY.replace("tiny_aircraft.bdf", "own.bdf").replace(
+        "  select: count 6\n", "  select: count 6\n  steady: {load: 100}\n"
+    )
+    aircraft = prepare_aircraft(parse_case(text, folder=tmp_path), tmp_path)
+    structure = aircraft.structure()
+    with pytest.raises(InputError, match="carries 1 kN, expected the weight"):
+        aircraft.steady_load(structure)
