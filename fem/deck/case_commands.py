@@ -36,6 +36,7 @@ NUMBERS = {
     "SDAMPING": "sdamping",
     "NSM": "nsm",
     "STATSUB": "statsub",
+    "DEFORM": "deform",
 }
 NAMES = {
     name: name.lower()
@@ -69,8 +70,6 @@ SOLUTION_REFUSED = {
     "NONLINEAR": "there are no NOLIN loads",
     "RSDAMP": "there is no damping of residual structures",
     "TSTRU": "temperatures are given by TEMP cards",
-    "DEFORM": "there are no initial deformations",
-    "TEMPERATURE": "there are no thermal loads",
     "SUPER": "there is one structure, without superelements",
 }
 # Requests, printing and what belongs to other disciplines: no answer of the

@@ -317,7 +317,6 @@ class _Reader:
         if kind.startswith(("INIT", "MATE")):
             self.change(initial_temperature=n)
         else:
-            self.not_carried_out(command)
             self.change(temperature=n)
 
     def do_super(self, command: _Command) -> None:

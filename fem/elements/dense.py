@@ -41,6 +41,13 @@ class DenseBlock:
         """(e, n, n), None: no viscous damping."""
         return None
 
+    def expansion(self) -> Float64 | None:
+        """(e, n) displacements of an element that expands freely, per degree.
+
+        Of its freedoms, with which it has no stress; None: it does not expand.
+        """
+        return None
+
     def forces(self) -> Recovery | None:
         """None: no element forces."""
         return None

@@ -7,7 +7,7 @@ do (seen in their grid point forces).
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -37,6 +37,8 @@ class Elasticity:
         solid: (6, 6) three-dimensional stiffness.
         rho, ge: density and structural damping coefficient.
         strength: allowable stresses of a ply.
+        alpha: strain per degree, (6,) of solids, (3,) of others; zero: none.
+        tref: temperature without strain.
     """
 
     mid: int
@@ -47,6 +49,13 @@ class Elasticity:
     rho: float
     ge: float
     strength: Strength | None = None
+    alpha: Float64 = field(default_factory=lambda: np.zeros(6))
+    tref: float = 0.0
+
+    @property
+    def plane_alpha(self) -> Float64:
+        """(3,) strain xx yy xy per degree."""
+        return self.alpha if len(self.alpha) == 3 else self.alpha[[0, 1, 3]]
 
     @property
     def shear_flexibility(self) -> Float64:
@@ -157,6 +166,8 @@ def _mat1(row: pd.Series) -> Elasticity:
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
         strength=_strength(row, "st sc st sc ss", (e, e, g)),
+        alpha=_value(row, "a") * np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
+        tref=_value(row, "tref"),
     )
 
 
@@ -175,6 +186,8 @@ def _mat2(row: pd.Series) -> Elasticity:
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
         strength=_strength(row, "st sc st sc ss", (g11, g22, g33)),
+        alpha=np.array([_value(row, k) for k in ("a1", "a2", "a3")]),
+        tref=_value(row, "tref"),
     )
 
 
@@ -191,6 +204,8 @@ def _mat8(row: pd.Series) -> Elasticity:
         strength=_strength(
             row, "xt xc yt yc s", tuple(_value(row, k) for k in ("e1", "e2", "g12"))
         ),
+        alpha=np.array([_value(row, "a1"), _value(row, "a2"), 0.0]),
+        tref=_value(row, "tref"),
     )
 
 
@@ -226,6 +241,8 @@ def _mat9(row: pd.Series) -> Elasticity:
         solid=np.nan_to_num(np.array(row["gs"], float).reshape(6, 6)),
         rho=column(pd.DataFrame([row]), "rho")[0],
         ge=_value(row, "ge"),
+        alpha=np.array(row["alphas"], float),
+        tref=_value(row, "tref"),
     )
 
 

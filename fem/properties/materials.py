@@ -22,6 +22,7 @@ class Isotropic:
         e, g, nu: (n,) Young's modulus, shear modulus, Poisson's ratio.
         rho: (n,) density.
         ge: (n,) structural damping coefficient.
+        alpha, tref: (n,) expansion per degree, and the temperature without strain.
     """
 
     e: Float64
@@ -29,6 +30,8 @@ class Isotropic:
     nu: Float64
     rho: Float64
     ge: Float64
+    alpha: Float64
+    tref: Float64
 
 
 def complete(e: Float64, g: Float64, nu: Float64) -> tuple[Float64, Float64, Float64]:
@@ -86,4 +89,6 @@ def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:
         nu=nu,
         rho=column(mat, "rho"),
         ge=column(mat, "ge"),
+        alpha=column(mat, "a"),
+        tref=column(mat, "tref"),
     )

@@ -7,7 +7,7 @@ M = int sigma z dz, hence B = -T^2 G4.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,6 +21,7 @@ from fem.properties.failure import Failure
 from fem.properties.laminate import Laminate
 from fem.properties.shell_section import (
     ShellSection,
+    strain_rotation,
     turned_flexibility,
     turned_stiffness,
 )
@@ -50,6 +51,8 @@ class ShellProperty:
         ge: structural damping coefficient.
         laminate: the plies, None for PSHELL.
         ply_id: (p,) numbers of the plies.
+        alpha: (3,) strain per degree in material axes; NaN: plies differ in it.
+        tref: temperature without strain.
         failure: what FT and SB measure the plies against, None: nothing.
     """
 
@@ -70,6 +73,8 @@ class ShellProperty:
     laminate: Laminate | None = None
     ply_id: Int64 | None = None
     failure: Failure | None = None
+    alpha: Float64 = field(default_factory=lambda: np.zeros(3))
+    tref: float = 0.0
 
     @property
     def isotropic(self) -> bool:
@@ -162,11 +167,19 @@ def _pshell(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
         thickness=float(row["t"]),
         inertia_ratio=ratio,
         fibre=np.array([row["z1"], row["z2"]], float),
+        alpha=_alike([materials[m].plane_alpha for m in mids.values() if m]),
+        tref=first.tref,
         density=first.rho,
         nsm=float(np.nan_to_num(float(row["nsm"]))),
         mass_height=0.0,
         ge=first.ge,
     )
+
+
+def _alike(alpha: list[Float64]) -> Float64:
+    """(3,) what all of these are, NaN where they differ."""
+    same = np.ptp(alpha, axis=0).max() <= 1e-12 * np.abs(alpha).max()
+    return alpha[0] if same else np.full(3, np.nan)
 
 
 def _plane_strain(stress: Float64, name: str) -> Float64:
@@ -222,6 +235,13 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
         mass_height=laminate.mass_height(),
         ge=float(np.nan_to_num(float(row["ge"]))),
         laminate=laminate,
+        alpha=_alike(
+            [
+                strain_rotation(-np.radians(theta)) @ materials[int(mid)].plane_alpha
+                for mid, theta in zip(mids, row["thetas"])
+            ]
+        ),
+        tref=float(np.nan_to_num(float(row["tref"]))),
         ply_id=plies,
         failure=_failure(row, materials, symmetric=lam.startswith("SY")),
     )

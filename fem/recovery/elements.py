@@ -22,6 +22,7 @@ from fem.elements.block import CENTRE, Detail, ElementBlock, Kind, Recovery
 from fem.elements.lines.beam_stations import StationRecovery
 from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads
+from fem.loads.thermal import FreeMotions
 from fem.model.assembly import triples_rotation, turn_columns
 
 # Elements that are evaluated at once: histories of their results fit into a cache.
@@ -132,6 +133,7 @@ def element_tables(
     detail: Detail = CENTRE,
     loads: ElementLoads | None = None,
     moving: bool = False,
+    free: FreeMotions | None = None,
 ) -> list[ElementTable]:
     """Tables of the chosen elements that have results of a kind.
 
@@ -143,6 +145,8 @@ def element_tables(
         detail: corners, fibres.
         loads: loads on elements between their grids.
         moving: velocities are known; without, dampers have no results.
+        free: what elements do that nothing hinders, which costs no force and no
+            stress; strains are those of all displacements (from memory: Nastran's).
     """
     groups: dict[tuple[str, tuple[str, ...]], list[_Part]] = {}
     if selection == "NONE":
@@ -159,6 +163,10 @@ def element_tables(
             continue
         key = (recovery.table, recovery.columns)
         part = _part(points, block, kind, detail, recovery, keep, loads, moving)
+        motion = None if free is None or kind == "strain" else free.of(block)
+        if motion is not None:
+            relief = -np.einsum("ecn,en->ec", recovery.matrix, motion[keep])
+            part = replace(part, of_loads=_beside(part.of_loads, relief))
         groups.setdefault(key, []).append(part)
     return [_table(name, columns, parts) for (name, columns), parts in groups.items()]
 
@@ -168,6 +176,7 @@ def loaded_bar_tables(
     blocks: Iterable[ElementBlock],
     selection: Selection,
     loads: ElementLoads | None,
+    free: FreeMotions | None = None,
 ) -> list[ElementTable]:
     """Forces at both ends of the chosen CBAR elements that loads act upon (PLOAD1)."""
     if loads is None or selection == "NONE":
@@ -180,6 +189,7 @@ def loaded_bar_tables(
         loaded if selection == "ALL" else loaded & selection,
         detail=Detail(ends=True),
         loads=loads,
+        free=free,
     )
 
 
@@ -189,6 +199,7 @@ def station_tables(
     kind: Kind,
     selection: Selection,
     loads: ElementLoads | None,
+    free: FreeMotions | None = None,
 ) -> list[ElementTable]:
     """Results of the chosen CBEAM elements at stations between their ends.
 
@@ -207,7 +218,7 @@ def station_tables(
     if loads is not None:
         found -= set(loads.id.tolist())
     chosen = frozenset(found if selection == "ALL" else found & selection)
-    return element_tables(points, beams, kind, chosen, detail=detail)
+    return element_tables(points, beams, kind, chosen, detail=detail, free=free)
 
 
 def _part(
@@ -259,6 +270,12 @@ def _of_loads(
     return result.reshape(-1, loads.patterns)
 
 
+def _beside(of_loads: Float64 | None, more: Float64) -> Float64:
+    """(e c, k + 1) what loads add, with one more load (e, c)."""
+    column = more.reshape(-1, 1)
+    return column if of_loads is None else np.hstack([of_loads, column])
+
+
 def _table(name: str, columns: tuple[str, ...], parts: Sequence[_Part]) -> ElementTable:
     ids = np.concatenate([part.recovery.id for part in parts])
     order = np.argsort(ids, kind="stable")
@@ -298,11 +315,10 @@ def _below(arrays: Sequence[Float64 | None], parts: Sequence[_Part]) -> Float64 
     widths = [array.shape[1] for array in arrays if array is not None]
     if not widths:
         return None
+    widest = max(widths)
+    given = [np.zeros((_rows(p), 0)) if a is None else a for a, p in zip(arrays, parts)]
     return np.concatenate(
-        [
-            np.zeros((_rows(part), widths[0])) if array is None else array
-            for array, part in zip(arrays, parts)
-        ]
+        [np.pad(array, ((0, 0), (0, widest - array.shape[1]))) for array in given]
     )
 
 

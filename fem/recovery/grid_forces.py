@@ -18,7 +18,8 @@ from fem.arrays import Bool, Float64, Int64
 from fem.constraints.elimination import Elimination
 from fem.elements.block import ElementBlock
 from fem.geometry.points import Points
-from fem.model.assembly import to_displacement
+from fem.loads.thermal import FreeMotions
+from fem.model.assembly import to_displacement, triples_rotation, turn_columns
 
 APPLIED, SPC, MPC, TOTAL = "APP-LOAD", "F-OF-SPC", "F-OF-MPC", "*TOTALS*"
 
@@ -165,13 +166,17 @@ def _of_block(
 
 
 def strain_energy(
-    points: Points, blocks: Iterable[ElementBlock], displacement: Float64
+    points: Points,
+    blocks: Iterable[ElementBlock],
+    displacement: Float64,
+    free: FreeMotions | None = None,
 ) -> dict[str, tuple[Int64, Float64]]:
     """Strain energy ½ u_eᵀ K_e u_e of every element.
 
     Args:
         points, blocks: the model.
         displacement: (g,), or (g, k) for k modes or subcases.
+        free: what elements do that nothing hinders, without energy.
 
     Returns:
         By card: ids (e,), values (e,) or (k, e).
@@ -185,6 +190,12 @@ def strain_energy(
             stiffness = to_displacement(points, block.dof, stiffness)
         moving = displacement.reshape(len(displacement), -1)[block.dof]
         u = np.where((block.dof >= 0)[:, :, None], moving, 0.0)
+        motion = None if free is None else free.of(block)
+        if motion is not None:
+            turn = triples_rotation(points, block.dof)
+            row = motion[:, None]
+            own = row if turn is None else turn_columns(row, turn)
+            u = u - own.transpose(0, 2, 1)
         energy = 0.5 * np.einsum("eik,eik->ke", u, stiffness @ u)
         energy = energy[0] if displacement.ndim == 1 else energy
         parts.setdefault(block.card, []).append((block.id, energy))

@@ -15,6 +15,7 @@ from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.loads import enforced_displacements, static_element_loads, static_load
 from fem.loads.element_loads import ElementLoads, below_each_other
+from fem.loads.thermal import FreeMotions, free_motions, summed
 from fem.model.structure import Structure, system_of
 from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
 from fem.recovery.grid_forces import grid_balance, grids_of, strain_energy
@@ -36,11 +37,13 @@ def solve_statics(
     solved: dict[int, _Solution] = {}
     for group in _with_same_support(c for c in subcases if not c.combination):
         model = structure.with_subcase(group[0])
-        load, eliminations = _loads(model, group)
+        free = [free_motions(model.deck, model.points, model.blocks, c) for c in group]
+        load, eliminations = _loads(model, group, free)
         u_g, residual = _solve(model, load, eliminations, options)
         for i, subcase in enumerate(group):
             loads = static_element_loads(model.deck, model.points, subcase.load)
-            found = _Solution(u_g[:, i], residual[:, i], load[:, i], loads)
+            vectors = u_g[:, i], residual[:, i], load[:, i]
+            found = _Solution(*vectors, loads, free[i])
             solved[subcase.id] = found
     for subcase in subcases:
         # A combination has the supports of its own: they sort the forces only.
@@ -63,12 +66,14 @@ class _Solution:
         residual: forces of constraint.
         load: applied.
         element_loads: of it, what acts on elements; None: nothing.
+        free: what elements would do under temperatures and deformations.
     """
 
     u_g: Float64
     residual: Float64
     load: Float64
     element_loads: ElementLoads | None
+    free: FreeMotions | None
 
 
 def _combined(
@@ -95,7 +100,8 @@ def _combined(
         np.sum([factor * getattr(part, name) for factor, part in parts], axis=0)
         for name in ("u_g", "residual", "load")
     )
-    return _Solution(*sums, below_each_other(loads) if loads else None)
+    free = summed([(factor, part.free) for factor, part in parts])
+    return _Solution(*sums, below_each_other(loads) if loads else None, free)
 
 
 def _summary(
@@ -122,24 +128,27 @@ def _with_same_support(subcases: Iterable[Subcase]) -> Iterator[list[Subcase]]:
         yield list(group)
 
 
-def _loads(model: Structure, group: list[Subcase]) -> tuple[Float64, list[Elimination]]:
+def _loads(
+    model: Structure, group: list[Subcase], free: list[FreeMotions | None]
+) -> tuple[Float64, list[Elimination]]:
     """(g, c) loads, and the constraints with the enforced motion of each subcase."""
     loads, eliminations = [], []
-    for subcase in group:
+    for subcase, motions in zip(group, free):
         dof, value = enforced_displacements(model.deck, model.points, subcase.load)
         elimination = model.elimination
         if len(dof):
             elimination = elimination.with_enforced(dof, value)
-        if not subcase.load and not elimination.enforced.any():
+        if not (subcase.load or motions or elimination.enforced.any()):
             raise InputError(
                 f"{model.deck.path}: subcase {subcase.id} selects no LOAD and enforces "
-                "no displacement; there is nothing to solve"
+                "no displacement, temperatures move nothing; there is nothing to solve"
             )
-        loads.append(
+        load = (
             static_load(model.deck, model.points, subcase.load, model.matrices.mass)
             if subcase.load
             else np.zeros(model.points.size)
         )
+        loads.append(load if motions is None else load + motions.load(model.points))
         eliminations.append(elimination)
     return np.stack(loads, axis=1), eliminations
 
@@ -215,9 +224,11 @@ def _write(
         forces = (load[:, None], spc_force[:, None], mpc_force[:, None])
         write_grid_forces(model, subcase, u_g[:, None], forces, results, name)
     if asked.get("ESE", "NONE") != "NONE":
-        energies = strain_energy(points, model.blocks, u_g)
+        energies = strain_energy(points, model.blocks, u_g, found.free)
         results.write_energies(f"{name}/strain_energy", energies, ids_of(asked["ESE"]))
-    write_element_results(model, subcase, u_g, results, name, found.element_loads)
+    write_element_results(
+        model, subcase, u_g, results, name, found.element_loads, found.free
+    )
 
 
 def write_grid_forces(
@@ -261,6 +272,7 @@ def write_element_results(
     results: ResultFile,
     name: str,
     loads: ElementLoads | None = None,
+    free: FreeMotions | None = None,
 ) -> None:
     """Forces, stresses and strains that a subcase asks for.
 
@@ -270,6 +282,7 @@ def write_element_results(
         u_g: (g,) displacements, or (g, k) for k sets of results.
         results, name: where to write.
         loads: loads on elements between their grids.
+        free: what elements do that nothing hinders (temperatures).
     """
     detail = detail_of(model.deck, subcase)
     for quantity, kind in ELEMENT_RESULTS:
@@ -280,10 +293,11 @@ def write_element_results(
             wanted(subcase, quantity),
             detail=detail,
             loads=loads,
+            free=free,
         )
         chosen = wanted(subcase, quantity)
-        tables += station_tables(model.points, model.blocks, kind, chosen, loads)
+        tables += station_tables(model.points, model.blocks, kind, chosen, loads, free)
         if kind == "force":
-            tables += loaded_bar_tables(model.points, model.blocks, chosen, loads)
+            tables += loaded_bar_tables(model.points, model.blocks, chosen, loads, free)
         for table in tables:
             results.write_table(f"{name}/element_{kind}", table, table.of(u_g))

@@ -94,6 +94,8 @@ def conm1(f: Fields) -> Rows:
 def mat9(f: Fields) -> Rows:
     row: Row = {"mid": f.integer(1, "MID")}
     row["gs"] = _symmetric(f, 2, "G", lower=False)
+    row["alphas"] = np.array([f.real(24 + k, f"A{k + 1}", 0.0) for k in range(6)])
+    row["tref"] = f.real(30, "TREF", 0.0)
     return [{**row, "rho": f.real(23, "RHO", 0.0), "ge": f.real(31, "GE", 0.0)}]
 
 
@@ -201,3 +203,12 @@ def seconct(f: Fields) -> Rows:
         a, b = (np.array(column, dtype=np.int64) for column in columns)
     row = {"sea": f.integer(1, "SEIDA"), "seb": f.integer(2, "SEIDB")}
     return [{**row, "gidas": a, "gidbs": b}]
+
+
+def temprb(f: Fields) -> Rows:
+    """Temperatures of line elements: EID1 with the fields, further ones below."""
+    row: Row = {"sid": f.integer(1, "SID")}
+    for k, name in enumerate(("ta", "tb", "tp1a", "tp1b", "tp2a", "tp2b")):
+        row[name] = f.real(3 + k, name.upper(), 0.0)
+    written, between = f.ids(17, "EID2") if len(f) > 17 else ([], [])
+    return [{**row, "eid": e} for e in (f.integer(2, "EID1"), *written, *between)]

@@ -52,6 +52,17 @@ RECORDS = (
         "sid:i g:i=0>GRID? cid:i=0>CORD a:f=0. r1:f=0. r2:f=0. r3:f=0. method:i=1 "
         "racc:f=0. -",
     ),
+    _regular("TEMP", "sid:i (g:i>POINT t:f)"),
+    _regular("TEMPD", "(sid:i t:f)"),
+    # Temperatures at the ends, and gradients along y and z (plane 1, plane 2).
+    Card(
+        name="TEMPRB",
+        group=GROUP,
+        read=lists.temprb,
+        more="sid:i eid:i ta:f tb:f tp1a:f tp1b:f tp2a:f tp2b:f",
+        load=True,
+    ),
+    _regular("DEFORM", "sid:i (eid:i d:f)"),
     _regular("SPCD", "sid:i (g:i>POINT c:c=0 d:f=0.)"),
     Card(
         name="LOAD",

@@ -12,6 +12,7 @@ from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.lines.line_geometry import LineGeometry, congruence
 from fem.elements.lines.pins import condense
+from fem.elements.lines.rod import stretched
 from fem.properties.materials import Isotropic
 
 
@@ -30,6 +31,48 @@ class LineBlock(DenseBlock, ABC):
     geometry: LineGeometry
     material: Isotropic
     released: npt.NDArray[np.bool_]
+
+    @property
+    def axis(self) -> Float64:
+        """(e, 3) from the first to the second end."""
+        return self.geometry.R_BE[:, :, 0]
+
+    @property
+    def length(self) -> Float64:
+        """(e,) between the ends."""
+        return self.geometry.length
+
+    @property
+    def tref(self) -> Float64:
+        """(e,) temperature without strain."""
+        return self.material.tref
+
+    def expansion(self) -> Float64:
+        """(e, 12), see `DenseBlock`."""
+        return stretched(self.axis, self.material.alpha * self.length)
+
+    def bent(self, gradient: Float64) -> Float64:
+        """(e, 12) displacements of freely bent elements, end A held.
+
+        Args:
+            gradient: (e, 2, 2) temperature per length along y and z (first index), at
+                A and B; linear between. The warm side is the longer one.
+        """
+        length, e = self.length[:, None], len(self.id)
+        curvature = -self.material.alpha[:, None, None] * gradient  # of v and w
+        slope = 0.5 * length * curvature.sum(axis=2)
+        across = length**2 * (curvature[..., 0] / 3.0 + curvature[..., 1] / 6.0)
+        zero = np.zeros(e)
+        move = np.stack([zero, across[:, 0], across[:, 1]], axis=1)
+        turn = np.stack([zero, -slope[:, 1], slope[:, 0]], axis=1)
+        R_BE, found = self.geometry.R_BE, np.zeros((e, 12))
+        theta = np.einsum("eij,ej->ei", R_BE, turn)
+        # The grid of end B moves with it, less what its offset adds.
+        found[:, 6:9] = np.einsum("eij,ej->ei", R_BE, move) - np.cross(
+            theta, self.geometry.offset_b
+        )
+        found[:, 9:] = theta
+        return found
 
     @property
     def extent(self) -> Float64:

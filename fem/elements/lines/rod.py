@@ -85,6 +85,15 @@ class Rod(DenseBlock):
             matrix[:, 6:9, :3] += part
         return matrix
 
+    @property
+    def tref(self) -> Float64:
+        """(e,) temperature without strain."""
+        return self.material.tref
+
+    def expansion(self) -> Float64:
+        """(e, 12), see `DenseBlock`."""
+        return stretched(self.axis, self.material.alpha * self.length)
+
     def forces(self) -> Recovery:
         return Recovery(
             table=self.card,
@@ -123,6 +132,14 @@ class Rod(DenseBlock):
             matrix[:, row, 3 * row : 3 * row + 3] = -gradient
             matrix[:, row, 6 + 3 * row : 9 + 3 * row] = gradient
         return matrix
+
+
+def stretched(axis: Float64, by: Float64) -> Float64:
+    """(e, 12) displacements of the ends of lines that are longer by (e,)."""
+    found = np.zeros((len(by), 12))
+    found[:, 6:9] = 0.5 * by[:, None] * axis
+    found[:, 0:3] = -found[:, 6:9]
+    return found
 
 
 def line_springs(axis: Float64, axial: Float64, torsional: Float64) -> Float64:

@@ -105,6 +105,11 @@ class CurvedShell(Shell):
     theta: Float64
     towards: Float64
 
+    @property
+    def expanding(self) -> Float64:
+        """(e, n, 3) grids."""
+        return self.nodes
+
     @cached_property
     def directors(self) -> Float64:
         """(e, n, 3) normals at the grids."""

@@ -77,6 +77,34 @@ class Shell(DenseBlock):
         total = self.section.nonstructural + per_area
         return replace(self, section=replace(self.section, nonstructural=total))
 
+    @property
+    def tref(self) -> Float64:
+        """(e,) temperature without strain."""
+        return np.array([p.tref for p in self.properties])[self.which]
+
+    def expansion(self) -> Float64:
+        """(e, 6 n), see `DenseBlock`; NaN where plies or directions differ too much.
+
+        Along the normal, which matters to elements that are not flat, the mean.
+        """
+        own = np.stack([p.alpha for p in self.properties])[self.which]
+        strain = np.einsum("eij,ej->ei", strain_rotation(-self.angle), own)
+        xx, yy, xy = strain.T
+        tensor = np.zeros((len(self.id), 3, 3))
+        tensor[:, 0, 0], tensor[:, 1, 1] = xx, yy
+        tensor[:, 0, 1] = tensor[:, 1, 0] = 0.5 * xy
+        tensor[:, 2, 2] = 0.5 * (xx + yy)
+        axes = self.shape.axes
+        arm = self.expanding - self.expanding.mean(axis=1, keepdims=True)
+        moved = np.zeros((*arm.shape[:2], 6))
+        moved[..., :3] = arm @ (axes.transpose(0, 2, 1) @ tensor @ axes)
+        return moved.reshape(len(self.id), -1)
+
+    @property
+    def expanding(self) -> Float64:
+        """(e, n, 3) grids."""
+        return self.corners
+
     def stiffness(self) -> Float64:
         """(e, 6 n, 6 n)."""
         size = self.dof.shape[1]

@@ -86,6 +86,8 @@ class Solid(DenseBlock):
         elasticity: (e, 6, 6) in basic axes.
         axes: (e, 3, 3) rows are the material axes in the basic frame (stress output).
         rho, ge: (e,) density and structural damping coefficient.
+        alpha: (e, 6) strain per degree, basic axes.
+        tref: (e,) temperature without strain.
     """
 
     pid: Int64
@@ -95,6 +97,8 @@ class Solid(DenseBlock):
     axes: Float64
     rho: Float64
     ge: Float64
+    alpha: Float64
+    tref: Float64
 
     property_card: str = "PSOLID"
 
@@ -108,6 +112,15 @@ class Solid(DenseBlock):
     def stiffness(self) -> Float64:
         """(e, 3 n, 3 n)."""
         return np.concatenate([self._matrices(p).stiffness for p in self._parts()])
+
+    def expansion(self) -> Float64:
+        """(e, 3 n), see `DenseBlock`."""
+        xx, yy, zz, xy, yz, zx = self.alpha.T
+        rows = [[xx, 0.5 * xy, 0.5 * zx], [0.5 * xy, yy, 0.5 * yz]]
+        rows.append([0.5 * zx, 0.5 * yz, zz])
+        strain = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+        arm = self.nodes - self.nodes.mean(axis=1, keepdims=True)
+        return (arm @ strain).reshape(len(self.id), -1)
 
     def structural_damping(self) -> Float64 | None:
         """(e,) GE."""
@@ -163,7 +176,18 @@ class Solid(DenseBlock):
 
     def take(self, which: Int64) -> "Solid":
         """Some of the elements."""
-        names = ("id", "dof", "pid", "nodes", "elasticity", "axes", "rho", "ge")
+        names = (
+            "id",
+            "dof",
+            "pid",
+            "nodes",
+            "elasticity",
+            "axes",
+            "rho",
+            "ge",
+            "alpha",
+        )
+        names += ("tref",)
         return replace(self, **{k: getattr(self, k)[which] for k in names})
 
 

@@ -111,6 +111,13 @@ def _block(
         axes=axes,
         rho=np.array([used[int(m)].rho for m in mids]),
         ge=np.array([used[int(m)].ge for m in mids]),
+        # Strains turn with the transpose of the material axes' own matrix.
+        alpha=np.einsum(
+            "eij,ej->ei",
+            stress_rotation(axes.transpose(0, 2, 1), strain=True),
+            np.stack([used[int(m)].alpha for m in mids]),
+        ),
+        tref=np.array([used[int(m)].tref for m in mids]),
     )
 
 

@@ -50,7 +50,7 @@ def say(tmp_path, capsys):
         (103, "SPC=1\nMETHOD=1", BAR.replace("2700.", "") + "EIGRL,1,,,3\n", "no mass"),
         (103, "SPC=1\nMETHOD=1", BAR + HELD, "nothing can move"),
         (109, "SPC=1\nDLOAD=1\nTSTEP=4", BAR + STEP + HELD, "nothing can move"),
-        (101, "LOAD=1\nTEMP(LOAD)=3", BAR, "no thermal loads"),
+        (101, "LOAD=1\nTEMP(LOAD)=3", BAR, "no TEMP, TEMPD, TEMPRB"),
         (101, "TEMP(INIT)=3", BAR + "MATT1,1,7\n", "do not depend on temperature"),
         (101, "TEMP(MATE)=3", BAR + "MATT1,1,7\n", "do not depend on temperature"),
         (101, "LOAD=1", BAR + "CBARR,1,7\n", "did you mean 'CBAR'?"),

@@ -297,6 +297,8 @@ def thick_plate(n, layers):
         axes=np.repeat(np.eye(3)[None], count, axis=0),
         rho=np.full(count, prop.density),
         ge=np.zeros(count),
+        alpha=np.zeros((count, 6)),
+        tref=np.zeros(count),
     )
     model = Model(xyz, [block])
     x, y = xyz[:, 0] / 10.0, xyz[:, 1] / 10.0

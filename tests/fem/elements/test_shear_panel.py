@@ -24,7 +24,13 @@ def panel(corners, rods=0.0) -> ShearPanel:
         nsm=0.0 * one,
         rods=np.full((1, 4), rods),
         material=Isotropic(
-            e=E * one, g=G * one, nu=NU * one, rho=2700 * one, ge=0 * one
+            e=E * one,
+            g=G * one,
+            nu=NU * one,
+            rho=2700 * one,
+            ge=0 * one,
+            alpha=0 * one,
+            tref=0 * one,
         ),
     )
 

@@ -72,6 +72,8 @@ def solids(shape: Shape, xyz, conn, *, matrix=None, rho=0.0, axes=None) -> Solid
         axes=np.repeat(triads[None], count, axis=0),
         rho=np.full(count, rho),
         ge=np.zeros(count),
+        alpha=np.zeros((count, 6)),
+        tref=np.zeros(count),
     )
 
 

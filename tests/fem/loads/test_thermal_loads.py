@@ -1,0 +1,212 @@
+"""Temperatures and DEFORM in statics: closed forms."""
+
+import h5py
+import numpy as np
+import pytest
+
+import fem
+from fem.errors import InputError
+from fem.solution import run_deck
+
+E, NU, ALPHA = 7e10, 0.3, 2e-5
+MAT1 = f"MAT1,1,7.+10,,.3,2700.,{ALPHA},20.\n"
+
+
+@pytest.fixture
+def solve(tmp_path):
+    files = []
+
+    def go(bulk, case="SPC = 1\nTEMP(LOAD) = 4"):
+        path = tmp_path / "deck.bdf"
+        asked = "FORCE = ALL\nSTRESS = ALL\nESE = ALL\n"
+        path.write_text(f"SOL 101\nCEND\n{asked}{case}\nBEGIN BULK\n{bulk}ENDDATA\n")
+        files.append(h5py.File(run_deck(fem.read_deck(path), tmp_path / "deck.h5")))
+        return files[-1]
+
+    yield go
+    for file in files:
+        file.close()
+
+
+LINES = {
+    "CROD": "CROD,1,1,1,2\nPROD,1,1,2.-4,1.-8\n",
+    "CBAR": "CBAR,1,1,1,2,0.,1.,0.\nPBAR,1,1,2.-4,1.-8,1.-8,1.-8\n",
+    "CBEAM": "CBEAM,1,1,1,2,0.,1.,0.\nPBEAM,1,1,2.-4,1.-8,1.-8,,1.-8\n",
+}
+
+
+@pytest.mark.parametrize("card", list(LINES))
+def test_a_heated_line_between_walls(solve, card):
+    """N = -E A alpha (T - TREF), along any direction; half as much at half the heat."""
+    grids = "GRID,1,,1.,2.,3.\nGRID,2,,2.,4.,5.\nSPC1,1,123456,1,2\n"
+    file = solve(grids + LINES[card] + MAT1 + "TEMPD,4,120.\nTEMP,4,1,20.\n")
+    force = file[f"static/1/element_force/{card}"]
+    columns = list(force.attrs["columns"])
+    axial = next(k for k, name in enumerate(columns) if name.startswith("axial"))
+    expected = -E * 2e-4 * ALPHA * 50.0
+    assert force["value"][0, axial] == pytest.approx(expected, rel=1e-9)
+    reaction = file["static/1/spc_force"][0, :3]
+    np.testing.assert_allclose(reaction, -expected * np.array([1, 2, 2]) / 3, rtol=1e-9)
+
+
+def test_a_free_bar_grows_without_force(solve):
+    grids = "GRID,1\nGRID,2,,3.\nSPC1,1,123456,1\nTEMPD,4,120.\n"
+    file = solve(grids + LINES["CBAR"] + MAT1)
+    assert file["static/1/displacement"][1, 0] == pytest.approx(3.0 * ALPHA * 100.0)
+    stress = file["static/1/element_stress/CBAR/value"][:]
+    assert np.abs(stress).max() < 1e-6 * E * ALPHA * 100.0
+
+
+@pytest.mark.parametrize("offset", ["", ",,+\n+,,,0.,.05,0.,0.,.05,0."])
+def test_gradients_bend_a_cantilever(solve, offset):
+    """v'' = -alpha T', linear from 300 to 600 per length; no force where it is free."""
+    bar = LINES["CBAR"].replace("0.,1.,0.\n", f"0.,1.,0.{offset}\n", 1)
+    grids = "GRID,1\nGRID,2,,3.\nSPC1,1,123456,1\nTEMPRB,4,1,20.,20.,300.,600.\n"
+    file = solve(grids + bar + MAT1)
+    moved = file["static/1/displacement"][1]
+    v = -ALPHA * 9.0 * (300.0 / 3.0 + 600.0 / 6.0)
+    slope = -ALPHA * 3.0 * 450.0
+    assert moved[1] == pytest.approx(v, rel=1e-9)
+    assert moved[5] == pytest.approx(slope, rel=1e-9)
+    assert np.abs(file["static/1/element_force/CBAR/value"][:]).max() < 1e-6
+
+
+def test_a_clamped_bar_under_a_gradient(solve):
+    """A uniform gradient along y leaves E I alpha T' in it."""
+    grids = "GRID,1\nGRID,2,,3.\nSPC1,1,123456,1,2\nTEMPRB,4,1,20.,20.,300.,300.\n"
+    file = solve(grids + LINES["CBAR"] + MAT1)
+    moments = file["static/1/element_force/CBAR/value"][0, [0, 2]]
+    np.testing.assert_allclose(np.abs(moments), E * 1e-8 * ALPHA * 300.0, rtol=1e-9)
+
+
+QUADS = "".join(
+    f"GRID,{10 * j + i},,{i * 0.5 + 0.1 * (i == 1) * (j == 1):g},{j * 0.4:g},0.\n"
+    for i in range(3)
+    for j in range(3)
+) + "".join(
+    f"CQUAD4,{10 * j + i + 1},1,{10 * j + i},{10 * j + i + 1},"
+    f"{10 * j + i + 11},{10 * j + i + 10}\n"
+    for i in range(2)
+    for j in range(2)
+)
+HELD = "SPC1,1,123456,0,1,2,10,11,12,20,21,22\n"
+
+
+def plate(text):
+    """With grids from 100 on: 0 is no id."""
+    rows = []
+    for line in text.splitlines():
+        words = line.split(",")
+        first = {"GRID": 1, "CQUAD4": 3, "SPC1": 3}[words[0]]
+        last = 2 if words[0] == "GRID" else len(words)
+        words[first:last] = [str(int(w) + 100) for w in words[first:last]]
+        rows.append(",".join(words))
+    return "\n".join(rows) + "\n"
+
+
+def test_a_free_plate_grows_and_a_held_one_is_pressed(solve):
+    shell = "PSHELL,1,1,.01,1,,1\n" + MAT1 + "TEMPD,4,70.\n"
+    free = solve(plate(QUADS + "SPC1,1,123456,0\n") + shell)
+    grown = free["static/1/displacement"][:, :2]
+    np.testing.assert_allclose(
+        grown, ALPHA * 50.0 * free["position"][:, :2], rtol=1e-8, atol=1e-13
+    )
+    stress = free["static/1/element_stress/CQUAD4/value"][:]
+    pressed = -E * ALPHA * 50.0 / (1.0 - NU)
+    assert np.abs(stress[:, [1, 2, 3, 9, 10, 11]]).max() < 1e-7 * abs(pressed)
+    held = solve(plate(QUADS + HELD) + shell)
+    stress = held["static/1/element_stress/CQUAD4/value"][:]
+    np.testing.assert_allclose(stress[:, [1, 2, 9, 10]], pressed, rtol=1e-9)
+
+
+def test_a_turned_ply_grows_along_its_own_axes(solve):
+    """MAT8 at 90 degrees: A1 along y of the element."""
+    ply = (
+        "PCOMP,1\n+,2,.01,90.\nMAT8,2,1.+11,1.+10,.3,5.+9,,,1500.,+\n+,1.-6,3.-5,20.\n"
+    )
+    file = solve(plate(QUADS + "SPC1,1,123456,0\n") + ply + "TEMPD,4,100.\n")
+    # TREF of a laminate is that of PCOMP, 0 here.
+    strain = np.array([3e-5, 1e-6]) * 100.0
+    np.testing.assert_allclose(
+        file["static/1/displacement"][:, :2],
+        strain * file["position"][:, :2],
+        rtol=1e-6,
+        atol=1e-10,
+    )
+
+
+def test_plies_that_expand_differently_are_refused(solve):
+    plies = "PCOMP,1\n+,2,.01,90.,,2,.01,0.\n"
+    ply = plies + "MAT8,2,1.+11,1.+10,.3,5.+9,,,1500.,+\n+,1.-6,3.-5,20.\n"
+    with pytest.raises(InputError, match=r"CQUAD4 1: its plies .* expand differently"):
+        solve(plate(QUADS + "SPC1,1,123456,0\n") + ply + "TEMPD,4,100.\n")
+
+
+CUBE = "".join(
+    f"GRID,{k + 1},,{place}\n"
+    for k, place in enumerate(
+        "0.,0.,0. 1.,0.,0. 1.2,1.,0. 0.,1.,0. "
+        "0.,0.,1. 1.,.1,1. 1.,1.,1.3 0.,1.,1.".split()
+    )
+)
+HEXA = "CHEXA,1,1,1,2,3,4,5,6,+\n+,7,8\nPSOLID,1,1\nTEMPD,4,70.\n"
+
+
+def test_a_heated_solid(solve):
+    """Free: alpha T x; held: -E alpha T / (1 - 2 nu) in all directions."""
+    free = solve(CUBE + HEXA + MAT1 + "SPC1,1,123,1\nSPC1,1,23,2\nSPC1,1,3,4\n")
+    stress = free["static/1/element_stress/CHEXA/value"][0, :6]
+    pressed = -E * ALPHA * 50.0 / (1.0 - 2.0 * NU)
+    assert np.abs(stress).max() < 1e-7 * abs(pressed)
+    held = solve(CUBE + HEXA + MAT1 + "SPC1,1,123456,1,THRU,8\n")
+    stress = held["static/1/element_stress/CHEXA/value"][0, :6]
+    np.testing.assert_allclose(stress[:3], pressed, rtol=1e-9)
+    np.testing.assert_allclose(stress[3:], 0.0, atol=1e-6 * abs(pressed))
+
+
+def test_a_bimetal_strip(solve):
+    """Two bars joined by their offsets: Timoshenko's curvature (JOSA 11, 1925).
+
+    Equal thickness h and modulus: 1.5 (alpha_2 - alpha_1) T / (2 h).
+    """
+    h, length, other = 0.01, 1.0, 1e-5
+    section = f"{h:g},{h**3 / 12:.9e},{h / 12:.9e},1.-4"
+    bulk = (
+        f"GRID,1\nGRID,2,,{length}\nSPC1,1,123456,1\nTEMPD,4,120.\n"
+        f"CBAR,1,1,1,2,0.,1.,0.,,+\n+,,,0.,{h / 2},0.,0.,{h / 2},0.\n"
+        f"CBAR,2,2,1,2,0.,1.,0.,,+\n+,,,0.,{-h / 2},0.,0.,{-h / 2},0.\n"
+        f"PBAR,1,1,{section}\nPBAR,2,2,{section}\n"
+        f"{MAT1}MAT1,2,7.+10,,.3,2700.,{other},20.\n"
+    )
+    moved = solve(bulk)["static/1/displacement"][1]
+    curvature = 1.5 * (ALPHA - other) * 100.0 / (2.0 * h)
+    assert moved[1] == pytest.approx(-curvature * length**2 / 2.0, rel=1e-5)
+    assert moved[0] == pytest.approx(0.5 * (ALPHA + other) * 100.0, rel=1e-5)
+
+
+def test_deform_makes_an_element_longer(solve):
+    """Held it is pressed by E A d / L; sums of subcases add up."""
+    grids = "GRID,1\nGRID,2,,3.\nSPC1,1,123456,1,2\nDEFORM,6,1,.001\nTEMPD,4,120.\n"
+    case = (
+        "SPC = 1\nSUBCASE 1\nDEFORM = 6\nSUBCASE 2\nTEMP(LOAD) = 4\n"
+        "SUBCOM 3\nSUBSEQ = 2.,1.\n"
+    )
+    file = solve(grids + LINES["CROD"] + MAT1, case)
+    deformed = -E * 2e-4 * 1e-3 / 3.0
+    heated = -E * 2e-4 * ALPHA * 100.0
+    for k, force in ((1, deformed), (2, heated), (3, 2.0 * deformed + heated)):
+        value = file[f"static/{k}/element_force/CROD/value"][0, 0]
+        assert value == pytest.approx(force, rel=1e-9)
+
+
+def test_what_is_missing_is_named(solve):
+    grids = "GRID,1\nGRID,2,,3.\nSPC1,1,123456,1,2\nTEMP,4,1,120.\n"
+    bulk = grids + LINES["CROD"] + MAT1
+    with pytest.raises(InputError, match="CROD 1: a grid of it has no temperature"):
+        solve(bulk)
+    with pytest.raises(InputError, match=r"TEMPERATURE\(LOAD\) = 9: no TEMP"):
+        solve(bulk, "SPC = 1\nTEMP(LOAD) = 9")
+    with pytest.raises(InputError, match="TEMPP1 with TEMPERATURE"):
+        solve(bulk + "TEMPP1,4,1,20.,5.\n")
+    with pytest.raises(InputError, match="DEFORM 6: element 77 is no rod"):
+        solve(bulk + "DEFORM,6,77,.1\n", "SPC = 1\nDEFORM = 6")
