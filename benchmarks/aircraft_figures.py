@@ -19,7 +19,7 @@ import pandas as pd
 from benchmarks.page import DOCS, markdown, put
 from drake_landing.reference.d150 import AircraftModel, build
 from drake_landing.reference.d150.facts import facts
-from drake_landing.reference.d150.masses import gear_mass_centre
+from drake_landing.reference.d150.masses import gear_mass_center
 from fem.deck.reader import read_deck
 from fem.elements.quality import quality_table
 from fem.model.structure import Structure
@@ -113,7 +113,7 @@ def whole(found: Aircraft) -> tuple[float, Float64, Float64]:
     """Mass, centre (3,) and inertia about it (3, 3) of deck and extended gears."""
     weight = found.structure.weight
     bodies = [(float(weight.mass[0]), weight.center, weight.inertia)]
-    bodies += [(*gear_mass_centre(g), np.zeros((3, 3))) for g in found.model.gears]
+    bodies += [(*gear_mass_center(g), np.zeros((3, 3))) for g in found.model.gears]
     total = sum(m for m, _, _ in bodies)
     centre = np.sum([m * c for m, c, _ in bodies], axis=0) / total
     inertia = np.zeros((3, 3))

@@ -32,7 +32,7 @@ from drake_landing.conditions.cs23 import CS23
 from drake_landing.conditions.cs25 import CS25
 from drake_landing.conditions.paragraph import Paragraph
 from drake_landing.gears.data import LandingGear
-from drake_landing.landing.lift import STANDARD_GRAVITY, aircraft_mass_centre
+from drake_landing.landing.lift import STANDARD_GRAVITY, aircraft_mass_center
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
 from drake_landing.landing.trial import Trial, try_scenario
 from drake_landing.process.aircraft import prepare_aircraft
@@ -176,7 +176,7 @@ def rigid_models(body: ModalBody, gears: Sequence[LandingGear]) -> Iterator[str]
         "tyres, kN | independent |"
     )
     yield "|---|---|---|---|---|---|---|---|"
-    whole, _ = aircraft_mass_centre(body, gears)
+    whole, _ = aircraft_mass_center(body, gears)
     for name, sink_rate, tonnes, wanted in INDEPENDENT:
         mass = body.mass + 1e3 * tonnes - whole
         scaled = replace(
@@ -195,7 +195,7 @@ def rigid_models(body: ModalBody, gears: Sequence[LandingGear]) -> Iterator[str]
 
 def braked_nose_load(body: ModalBody, gears: Sequence[LandingGear]) -> float:
     """25.493(e): V_N = W/(A + B) [B + f μ A E/(A + B + μ E)], μ 0.8, f 2, in N."""
-    mass, centre = aircraft_mass_centre(body, gears)
+    mass, centre = aircraft_mass_center(body, gears)
     _, height = at_rest(body, gears)
     nose = next(gear for gear in gears if gear.name == "nose")
     main = next(gear for gear in gears if gear.name == "main_left")
@@ -210,7 +210,7 @@ def tables(level: str, below_hz: float) -> dict[str, list[str]]:
     """Name of each table of an aircraft -> its lines."""
     body, gears = reference_aircraft(level, below_hz)
     static, _ = at_rest(body, gears)
-    mass, _ = aircraft_mass_centre(body, gears)
+    mass, _ = aircraft_mass_center(body, gears)
     trials = {name: run_preset(name, body, gears) for name in PRESETS}
     head = [
         f"{mass / 1e3:.1f} t, {body.n} elastic modes below {body.frequency[-1]:.0f} "

@@ -213,12 +213,11 @@ def mass_properties(structure: Structure) -> tuple[float, Float64, Float64]:
 
 def modal_damping(structure: Structure, basis: Basis) -> Float64:
     """(n, n) projection of the B that the direct transient uses."""
-    damping, shape = structure.damping, basis.shape
-    projected = damping.stiffness_factor * (shape.T @ (structure.stiffness @ shape))
-    projected += damping.mass_factor * (shape.T @ (structure.mass @ shape))
-    if damping.other is not None:
-        projected += shape.T @ (damping.other @ shape)
-    return 0.5 * (projected + projected.T)
+    shape = basis.shape
+    stiffness = shape.T @ (structure.stiffness @ shape)
+    return structure.damping.projected(
+        shape, stiffness, shape.T @ (structure.mass @ shape)
+    )
 
 
 def _shapes(structure: Structure, grids: Int64, basis: Basis, R_AB: Float64) -> Float64:

@@ -11,7 +11,7 @@ from scipy.interpolate import Akima1DInterpolator
 from drake_landing.case.scenario import Scenario
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import distinct_instants
-from drake_landing.landing.lift import aircraft_mass_centre
+from drake_landing.landing.lift import aircraft_mass_center
 from drake_landing.landing.start import reference_energy
 
 Float64 = npt.NDArray[np.float64]
@@ -112,7 +112,7 @@ def gear_loads(landing: LandingDiagram, context: Context) -> pd.DataFrame:
 def _momentum_error(
     landing: LandingDiagram, context: Context, signals: Signals, scenario: Scenario
 ) -> Float64:
-    mass, _ = aircraft_mass_centre(landing.body, landing.gears)
+    mass, _ = aircraft_mass_center(landing.body, landing.gears)
     forces = sum(signals[f"tire_{wheel}.wrench"][3:] for wheel in landing.tires)
     if landing.lift is not None:
         forces = forces + np.outer([0.0, 0.0, 1.0], signals["lift.force"][0])

@@ -12,6 +12,7 @@ from pydrake.systems.framework import DiagramBuilder
 
 from drake_landing.gears.bodies import mass_points
 from drake_landing.gears.data import LandingGear
+from drake_landing.gears.mass_center import mass_center
 from systems.airframe.distributed_load import DistributedLoad, trimmed_shares
 from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
@@ -70,16 +71,12 @@ def decaying(
     return Table((start, start + duration), (factor, remaining))
 
 
-def aircraft_mass_centre(
+def aircraft_mass_center(
     body: ModalBody, gears: Sequence[LandingGear]
 ) -> tuple[float, Float64]:
     """Mass (kg) and centre of gravity (3,) in B (m) with all gears, extended."""
-    items = [(body.mass, body.p_BG)]
-    for gear in gears:
-        items += mass_points(gear)
-    mass = sum(m for m, _ in items)
-    centre = np.sum([m * p for m, p in items], axis=0) / mass
-    return float(mass), centre
+    points = [point for gear in gears for point in mass_points(gear)]
+    return mass_center([(body.mass, body.p_BG), *points])
 
 
 def AddLift(
@@ -103,9 +100,9 @@ def AddLift(
         ValueError: a node is not one of the body's, or the nodes do not surround the
             centre of gravity.
     """
-    mass, centre = aircraft_mass_centre(body, gears)
+    mass, center = aircraft_mass_center(body, gears)
     rows = body.rows(lift.nodes)
-    shares = trimmed_shares(body.p_BN[rows], centre, lift.shares)
+    shares = trimmed_shares(body.p_BN[rows], center, lift.shares)
     weight = mass * gravity
     if isinstance(lift.factor, Table):
         force = Table(lift.factor.x, [weight * y for y in lift.factor.y])

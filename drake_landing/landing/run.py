@@ -88,10 +88,10 @@ def build_landing(
             list(monitoring.values()),
             bushing=bushing and bushing.model_dump(),
         )
-    except ValueError as error:
-        text = str(error)
-        known = text.startswith(("scenario", "gears"))
-        raise InputError(text if known else f"gears: {text}") from None
+    except InputError:
+        raise
+    except ValueError as error:  # of a system, which knows no case
+        raise InputError(f"gears: {error}") from None
 
 
 def fast_mode_notices(body: ModalBody, simulation: Simulation) -> tuple[str, ...]:

@@ -31,6 +31,7 @@ from drake_landing.landing.initial_state import (
     set_initial_state,
 )
 from drake_landing.landing.lift import STANDARD_GRAVITY, Lift, decaying
+from fem.errors import InputError
 from systems.airframe.modal_body import ModalBody
 from systems.runway.roughness import rough_tracks
 from systems.runway.runway import Runway
@@ -61,11 +62,12 @@ def make_scenario_diagram(
         options: further arguments of MakeLandingDiagram.
 
     Raises:
-        ValueError: also where brakes are to be applied and no gear has any, or nodes
-            that carry the lift are not given.
+        InputError: brakes are to be applied and no gear has any, or nodes that carry
+            the lift are not given.
+        ValueError: as MakeLandingDiagram.
     """
     if scenario.braking and not any(gear.brake for gear in gears):
-        raise ValueError(
+        raise InputError(
             f"scenario.braking: found {scenario.braking:g}, but no gear has a brake"
         )
     ahead = min(p[0] for gear in gears for p in wheel_centres(gear).values())
@@ -125,7 +127,7 @@ def reference_energy(landing: LandingDiagram, scenario: Scenario) -> float:
 
 def _lift(section: LiftSection) -> Lift:
     if not section.nodes:
-        raise ValueError("scenario.lift: no nodes, expected those of the wing")
+        raise InputError("scenario.lift: no nodes, expected those of the wing")
     factor = section.factor
     if section.decay_duration is not None:
         factor = decaying(

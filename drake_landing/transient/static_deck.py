@@ -21,7 +21,7 @@ from fem.deck.sections import split_sections
 from fem.deck.source import read_source
 from fem.deck.units import units_of
 from fem.files.aside import written_aside
-from fem.files.deck_writer import real
+from fem.files.deck_writer import card
 from fem.model.structure import Structure
 
 _LEAST = 1e-9  # of the largest force or moment: below, nothing is written
@@ -86,9 +86,9 @@ def _lines(
     left_out: Collection[str] = structure.deck.ignored
     bulk = without_cards(
         until_enddata(sections.bulk),
-        lambda card: (
-            card.name in left_out
-            or (card.name == "PARAM" and card.field(1).upper() == "INREL")
+        lambda read: (
+            read.name in left_out
+            or (read.name == "PARAM" and read.field(1).upper() == "INREL")
         ),
     )
     first = free_ids(bulk, len(cases) + 2)
@@ -134,11 +134,11 @@ def _support(structure: Structure, sid: int) -> Iterator[str]:
     held, other = sid, structure.subcase.spc
     if other:
         held = sid + 1
-        yield f"SPCADD,{sid},{held},{other}"
+        yield card("SPCADD", sid, held, other)
     rows = structure.elimination.f[determinate_rows(structure.rigid_body)]
     for row in rows.tolist():
         grid, component = divmod(int(row), 6)
-        yield f"SPC1,{held},{component + 1},{structure.points.grid_id[grid]}"
+        yield card("SPC1", held, component + 1, int(structure.points.grid_id[grid]))
 
 
 def _cards(structure: Structure, units: str, sid: int, load: Float64) -> Iterator[str]:
@@ -152,6 +152,5 @@ def _cards(structure: Structure, units: str, sid: int, load: Float64) -> Iterato
         size = np.abs(values).max(axis=1)
         for i in np.flatnonzero(size > _LEAST * size.max(initial=0.0)).tolist():
             grid = int(points.grid_id[i])
-            x, y, z = (real(float(v), 16) for v in values[i])
-            yield f"{kind + '*':8}{sid:16d}{grid:16d}{int(frames[grid]):16d}{'1.':>16}"
-            yield f"{'*':8}{x:>16}{y:>16}{z:>16}"
+            frame, value = int(frames[grid]), values[i].tolist()
+            yield card(kind, sid, grid, frame, 1.0, *value, wide=True)

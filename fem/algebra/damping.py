@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
+from fem.arrays import Float64
+
 
 @dataclass(frozen=True, kw_only=True)
 class Damping:
@@ -52,3 +54,16 @@ class Damping:
         if self.other is not None:
             total = total + self.other
         return sp.csr_matrix(total)
+
+    def projected(self, shape: Float64, stiffness: Float64, mass: Float64) -> Float64:
+        """(m, m) symmetric Φᵀ B Φ.
+
+        Args:
+            shape: (n, m) Φ.
+            stiffness: (m, m) Φᵀ K Φ.
+            mass: (m, m) Φᵀ M Φ.
+        """
+        total = self.stiffness_factor * stiffness + self.mass_factor * mass
+        if self.other is not None:
+            total = total + shape.T @ (self.other @ shape)
+        return 0.5 * (total + total.T)

@@ -7,6 +7,8 @@ fields of 16. Reals always carry a decimal point, as Nastran demands.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
+from fem.deck.values import real as value_of
+
 Value = int | float | str | None
 
 RULE = "$" + "-" * 71
@@ -17,6 +19,9 @@ def real(value: float, width: int) -> str:
 
     Raises:
         ValueError: not a finite number.
+
+    >>> real(150e6, 8), real(0.25, 8), real(-1 / 3, 16)
+    ('1.5+8', '.25', '-.33333333333333')
     """
     if value - value != 0.0:
         raise ValueError(f"{value} cannot be written to a deck: not a finite number")
@@ -55,18 +60,7 @@ def _fits(value: Value) -> bool:
     """Whether 8 characters keep six digits of the value."""
     if not isinstance(value, float) or value == 0.0:
         return True
-    return abs(float_of(real(value, 8)) / value - 1) < 5e-7
-
-
-def float_of(text: str) -> float:
-    """A Nastran real: 1.5+8 means 1.5e8."""
-    body = text.strip().upper().replace("D", "E")
-    for sign in "+-":
-        at = body.rfind(sign)
-        if at > 0 and body[at - 1] != "E":
-            body = body[:at] + "E" + body[at:]
-            break
-    return float(body)
+    return abs(value_of(real(value, 8)) / value - 1) < 5e-7
 
 
 def card(name: str, *values: Value, wide: bool | None = None) -> str:

@@ -263,12 +263,9 @@ def modal_damping(
         return np.zeros((modes.count, modes.count))
     if not isinstance(damping, Damping):
         damping = Damping(other=sp.csr_matrix(damping))
-    diagonal = damping.stiffness_factor * modes.eigenvalue + damping.mass_factor
-    projected = np.diag(diagonal)
-    if damping.other is not None:
-        full = modes.shape.T @ (damping.other @ modes.shape)
-        projected = projected + 0.5 * (full + full.T)
-    return projected
+    return damping.projected(
+        modes.shape, np.diag(modes.eigenvalue), np.eye(modes.count)
+    )
 
 
 def _initial_state(

@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.gears.data import LandingGear
+from drake_landing.gears.mass_center import mass_center
 from drake_landing.reference.d150.facts import facts
 from drake_landing.reference.d150.geometry import Float64
 from drake_landing.reference.d150.mass_items import (
@@ -134,14 +135,12 @@ def positions(reference: Reference) -> dict[int, Float64]:
     return {i: p for group in reference.values() for i, p in zip(group.ids, group.p)}
 
 
-def gear_mass_centre(gear: LandingGear) -> tuple[float, Float64]:
-    """Mass (kg) and centre (3,) (m, B) of an extended gear."""
+def gear_mass_center(gear: LandingGear) -> tuple[float, Float64]:
+    """Mass (kg) and center (3,) (m, B) of an extended gear."""
     every = {**gear.moving_parts, **gear.sprung_parts}
-    parts = [(part.mass, part.cg) for part in every.values()]
+    points = [(part.mass, np.array(part.cg)) for part in every.values()]
     wheels = len(gear.wheel_offsets) * gear.wheel.mass
-    parts += [(wheels, axle) for axle in gear.axles]
-    moment = np.sum([m * np.array(p) for m, p in parts], axis=0)
-    return gear.mass, moment / gear.mass
+    return mass_center([*points, *((wheels, np.array(axle)) for axle in gear.axles)])
 
 
 def _steiner(arm: Float64) -> Float64:
@@ -212,7 +211,7 @@ def _closed_payload(
     target = facts("overall")["mass"]
     mass, moment = rest.mass.sum(), float(rest.mass @ rest.x)
     for gear in gears:
-        m, centre = gear_mass_centre(gear)
+        m, centre = gear_mass_center(gear)
         mass, moment = mass + m, moment + m * centre[0]
     kilograms = tilted(
         payload.mass,

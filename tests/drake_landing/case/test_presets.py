@@ -7,7 +7,7 @@ from numpy.testing import assert_allclose
 from drake_landing.case.presets import PRESETS
 from drake_landing.case.reading import parse_case
 from drake_landing.case.scenario import Scenario
-from drake_landing.landing.lift import aircraft_mass_centre
+from drake_landing.landing.lift import aircraft_mass_center
 from drake_landing.landing.start import make_scenario_diagram
 from drake_landing.landing.trial import try_scenario
 from fem.errors import InputError
@@ -79,7 +79,7 @@ def test_braked_nose_load_is_about_that_of_the_dynamic_formula():
     """25.493(e): V_N = W/(A + B) [B + f μ A E/(A + B + μ E)], f = 2 undamped."""
     scenario = Scenario.model_validate({"preset": "braked_roll"})
     _, loads = _run(scenario, modes=0, duration=0.7, accuracy=1e-4)
-    mass, centre = aircraft_mass_centre(aircraft_body(0), _gears())
+    mass, centre = aircraft_mass_center(aircraft_body(0), _gears())
     A, B = centre[0] - 5.07, 17.71 - centre[0]
     # Struts about static: the ground is some 0.55 m nearer than extended.
     E = centre[2] + 4.30 - 0.55

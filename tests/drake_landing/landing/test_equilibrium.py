@@ -14,7 +14,7 @@ from drake_landing.landing.initial_state import (
     set_initial_state,
     tyre_clearances,
 )
-from drake_landing.landing.lift import Lift, aircraft_mass_centre, decaying
+from drake_landing.landing.lift import Lift, aircraft_mass_center, decaying
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body
@@ -42,7 +42,7 @@ def test_standing_aircraft_obeys_the_lever_rule(modes):
     landing = MakeLandingDiagram(body, gears, gravity=G)
     context = landing.diagram.CreateDefaultContext()
     set_static_equilibrium(landing, context)
-    mass, centre = aircraft_mass_centre(body, gears)
+    mass, centre = aircraft_mass_center(body, gears)
     nose, left, right = _loads(landing, context)
     assert_allclose(nose + left + right, G * mass, rtol=1e-9)
     assert_allclose(left, right, rtol=1e-9)
@@ -137,7 +137,7 @@ def test_landing_with_lift_and_gravity_is_that_of_neither(lifted):
     found = (peak[1] + weights[:, None]).max(axis=1)
     assert_allclose(found, peak[0].max(axis=1), rtol=0.05)
     assert_allclose(run[LOAD][[2, 8, 14], 0], -weights, rtol=5e-3)
-    mass, _ = aircraft_mass_centre(lifted.body, lifted.gears)
+    mass, _ = aircraft_mass_center(lifted.body, lifted.gears)
     total = run["energy_budget.total"][0]
     assert np.abs(total - total[0]).max() < 1e-4 * 0.5 * mass * SINK_RATE**2
     # Lift works against the sinking: some hundred kJ that the budget must not miss.
@@ -154,7 +154,7 @@ def test_lift_that_decays_loads_the_gears():
     )
     run = land(landing, duration=0.4, accuracy=1e-4, flying=True)
     total = run["energy_budget.total"][0]
-    mass, _ = aircraft_mass_centre(landing.body, landing.gears)
+    mass, _ = aircraft_mass_center(landing.body, landing.gears)
     assert np.abs(total - total[0]).max() < 1e-3 * 0.5 * mass * SINK_RATE**2
     vertical = sum(run[f"tire_{w}.wrench"][5, -1] for w in landing.tires)
     assert vertical > 0.8 * G * mass

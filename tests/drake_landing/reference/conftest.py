@@ -11,7 +11,7 @@ from pyNastran.bdf.bdf import BDF
 from pyNastran.bdf.mesh_utils.mass_properties import mass_properties
 
 from drake_landing.reference.d150 import AircraftModel, build
-from drake_landing.reference.d150.masses import gear_mass_centre
+from drake_landing.reference.d150.masses import gear_mass_center
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 
@@ -54,7 +54,7 @@ class ReadDeck:
         ixx, iyy, izz, ixy, ixz, iyz = six
         inertia = np.array([[ixx, -ixy, -ixz], [-ixy, iyy, -iyz], [-ixz, -iyz, izz]])
         bodies = [(mass, cg, inertia)]
-        bodies += [(*gear_mass_centre(g), np.zeros((3, 3))) for g in self.model.gears]
+        bodies += [(*gear_mass_center(g), np.zeros((3, 3))) for g in self.model.gears]
         total = sum(m for m, _, _ in bodies)
         centre = np.sum([m * c for m, c, _ in bodies], axis=0) / total
         whole = np.zeros((3, 3))

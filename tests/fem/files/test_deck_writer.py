@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from fem.deck.values import real as value_of
 from fem.files.deck_writer import (
     card,
     case_set,
-    float_of,
     id_ranges,
     real,
 )
@@ -24,14 +24,14 @@ def test_a_large_field_keeps_nine_digits(x):
     text = real(x, 16)
     assert len(text) <= 16
     assert "." in text
-    assert float_of(text) == pytest.approx(x, rel=1e-9)
+    assert value_of(text) == pytest.approx(x, rel=1e-9)
 
 
 @given(REALS.filter(lambda x: abs(x) > 1e-30))
 def test_a_small_field_keeps_three_digits(x):
     text = real(x, 8)
     assert len(text) <= 8
-    assert float_of(text) == pytest.approx(x, rel=5e-3)
+    assert value_of(text) == pytest.approx(x, rel=5e-3)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_small_fields_where_they_suffice():
 def test_large_fields_where_precision_needs_them():
     lines = card("GRID", 1, None, -0.00123456789, 0.0, 0.0).split("\n")
     assert lines[0].startswith("GRID*")
-    assert float_of(lines[0][40:56]) == -0.00123456789
+    assert value_of(lines[0][40:56]) == -0.00123456789
     assert lines[1].startswith("*")
 
 
