@@ -94,7 +94,7 @@ def brake_torque(
     Args:
         demand: N m, >= 0.
         spin: rad/s, of the wheel against the piston about the axle.
-        slip, load: slip and vertical load (N) of the tyre, for the anti-skid.
+        slip, load: slip and vertical load (N) of the tire, for the anti-skid.
     """
     skid = parameters.anti_skid
     if skid is not None:

@@ -20,7 +20,7 @@ from systems.gear.lever_strut import LeverStrut
 
 
 class GearForces(LeafSystem):
-    """Tyre wrenches, strut forces, brake and pitch torques in the plant's own form.
+    """Tire wrenches, strut forces, brake and pitch torques in the plant's own form.
 
     | port | size | unit | frame and sign |
     |---|---|---|---|
@@ -35,7 +35,7 @@ class GearForces(LeafSystem):
     | in `wheel_jacobian` (for all_generalized_force) | 6 k nv | | of WheelKinematics |
     | out `spatial_forces` | abstract | | list of ExternallyAppliedSpatialForce |
     | out `generalized_force` | nv | N, N m | of struts, brakes, pitch dampers, legs |
-    | out `all_generalized_force` | nv | N, N m | the same and the tyres: all in one |
+    | out `all_generalized_force` | nv | N, N m | the same and the tires: all in one |
 
     Plant and attachment get either the first two outputs or the last one, which takes
     less time.

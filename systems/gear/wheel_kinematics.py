@@ -1,6 +1,6 @@
 """Where the wheels are and how the struts stand, read once from the plant's state.
 
-Tyres and shock absorbers then need no plant: they take short vectors, can be tested
+Tires and shock absorbers then need no plant: they take short vectors, can be tested
 alone and their inputs can be logged.
 """
 

@@ -43,7 +43,7 @@ def rough_tracks(
         length: m, of the rough part.
         start: m, distance at which it begins.
         wavelengths: m, shortest and longest; what is shorter than about twice the
-            footprint of a tyre, the tyre itself levels out.
+            footprint of a tire, the tire itself levels out.
         run_in: m, over which the roughness grows to its full size.
         track_spacing: m; 0 makes both tracks the same.
 

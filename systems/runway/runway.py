@@ -3,9 +3,9 @@
 A profile (`runway_profile`) gives height over the distance d along the runway
 (`direction`, default -x, from `origin`); with a second one, `right`, the first is that
 of the left track, and between the tracks one goes over into the other. A crown falls to
-either side of the centre line. The tyre touches it at the nearest point in
+either side of the centre line. The tire touches it at the nearest point in
 the plane of the wheel: then the radial deflection has the surface normal as its
-gradient, and the contact force of an elastic tyre is conservative over any profile.
+gradient, and the contact force of an elastic tire is conservative over any profile.
 """
 
 import math
@@ -26,12 +26,12 @@ _LEAST_COSINE = 0.05
 
 @dataclass(frozen=True, kw_only=True)
 class Runway:
-    """The ground under the tyres, at rest in the world frame.
+    """The ground under the tires, at rest in the world frame.
 
     Attributes:
         profile: heights over distance; None is flat, z = 0.
         surface: "dry", "wet" or "icy".
-        friction_factor: factor on the tyres' friction in place of the surface's.
+        friction_factor: factor on the tires' friction in place of the surface's.
         right: heights of the right track; None: `profile` is as wide as the runway.
         track_spacing: m, between left and right track.
         crown: fall over distance from the centre line, to either side.
@@ -68,7 +68,7 @@ class Runway:
 
     @property
     def friction(self) -> float:
-        """Factor on the friction coefficient of the tyres."""
+        """Factor on the friction coefficient of the tires."""
         if self.friction_factor is not None:
             return self.friction_factor
         return SURFACE_FRICTION[self.surface]
@@ -83,7 +83,7 @@ class Runway:
             if profile and profile.max_curvature * radius >= 1.0:
                 raise ValueError(
                     f"runway: radius of curvature is {1.0 / profile.max_curvature:.4g} "
-                    f"m in a hollow, expected > {radius} m, the radius of the tyre: "
+                    f"m in a hollow, expected > {radius} m, the radius of the tire: "
                     "make the bump, the ramp or the shortest waves longer"
                 )
 

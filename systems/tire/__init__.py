@@ -1,1 +1,1 @@
-"""Tyres and their slip."""
+"""Tires and their slip."""

@@ -1,12 +1,12 @@
-"""Properties of an aircraft tyre from its size and pressure: NASA TR R-64.
+"""Properties of an aircraft tire from its size and pressure: NASA TR R-64.
 
 R. F. Smiley, W. B. Horne: Mechanical Properties of Pneumatic Tires with Special
 Reference to Modern Aircraft Tires, NASA TR R-64 (1960; first as NACA TN 4110). Its
-formulas for type VII tyres, written here from memory; that their pieces meet in value
-and slope confirms the numbers, not the source. Measured figures of a tyre take their
+formulas for type VII tires, written here from memory; that their pieces meet in value
+and slope confirms the numbers, not the source. Measured figures of a tire take their
 place wherever they are known.
 
-They hold for bias tyres at rest or rolling slowly, up to bottoming, within about 10 to
+They hold for bias tires at rest or rolling slowly, up to bottoming, within about 10 to
 30 %. d is the outer diameter, w the width, p the pressure, p_r the rated one, δ the
 deflection; SI units, the formulas are homogeneous in pressure and length.
 """
@@ -25,12 +25,12 @@ _POINTS = 81
 
 @dataclass(frozen=True, kw_only=True)
 class TireSize:
-    """Size and pressure of an aircraft tyre.
+    """Size and pressure of an aircraft tire.
 
     Attributes:
-        diameter, width: m, outer ones of the inflated tyre.
+        diameter, width: m, outer ones of the inflated tire.
         rated_pressure: Pa.
-        inflation: pressure over the rated one; 0 is a flat tyre.
+        inflation: pressure over the rated one; 0 is a flat tire.
 
     Raises:
         ValueError: a value is out of range; the message names it.

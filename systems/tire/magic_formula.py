@@ -1,10 +1,10 @@
-"""Magic Formula of a tyre, with the coefficients of a property file (.tir).
+"""Magic Formula of a tire, with the coefficients of a property file (.tir).
 
 Steady forces at combined slip after H. B. Pacejka, Tire and Vehicle Dynamics (4.E1 to
 4.E78), as PAC2002, MF-Tyre 5.2 and 6.x have them; without turn slip, overturning
 moment and changes of pressure. Axes of the file, ISO: x in the direction of travel
 along the wheel, y to the left, z up; κ = -v_slide,x/|v_x|, tan α = v_slide,y/|v_x|.
-The formula's rolling resistance and vertical spring are not used: the tyre has its own.
+The formula's rolling resistance and vertical spring are not used: the tire has its own.
 """
 
 import re
