@@ -85,7 +85,6 @@ def reason(name: str) -> str:
 # Property cards that are harmless where no element has them, and once their elements
 # are passed over.
 PROPERTY_OF: dict[str, str] = {
-    "CBEND": "PBEND",
     "CBEAM3": "PBEAM3",
     "CFAST": "PFAST",
     "CWELD": "PWELD",

@@ -34,6 +34,29 @@ def orientation(columns: Columns, problems: Problems) -> None:
         ]
 
 
+def bend(columns: Columns, problems: Problems) -> None:
+    """GEOM says how the arc is given."""
+    orientation(columns, problems)
+    for row, geom in enumerate(columns["geom"]):
+        if geom not in (1, 2, 3, 4):
+            problems.append(
+                f"{_place(columns, row)}: CBEND {columns['eid'][row]} field GEOM: "
+                f"found {geom}, expected 1, 2, 3 or 4"
+            )
+
+
+def pbend(columns: Columns, problems: Problems) -> None:
+    """An integer in place of A makes it a pipe (FSI)."""
+    for row, area in enumerate(columns["a"]):
+        if isinstance(area, int) or not area > 0.0:
+            problems.append(
+                f"{_place(columns, row)}: PBEND {columns['pid'][row]} field A: found "
+                f"{area}, expected a positive real number; pipes by FSI are not "
+                "supported"
+            )
+    columns["a"] = [float(area) for area in columns["a"]]
+
+
 def beam(columns: Columns, problems: Problems) -> None:
     """OFFT is a name; a real number there is BIT, which belongs to p-elements.
 

@@ -40,6 +40,16 @@ BEAM_STRESS = ("sxc", "sxd", "sxe", "sxf", "smax", "smin")
 BOTH = ("stress", "strain")
 
 
+BEND_FORCE = tuple(
+    f"{name}_{end}"
+    for end in "ab"
+    for name in (
+        *("bending_moment1", "bending_moment2", "shear1", "shear2"),
+        *("axial", "torque"),
+    )
+)
+
+
 def at_ends(columns: tuple[str, ...]) -> tuple[str, ...]:
     """Columns of a beam at both ends."""
     return tuple(f"{name}_{end}" for end in "ab" for name in columns)
@@ -219,6 +229,38 @@ RECORDS = (
         group=_GROUP,
         fields="(pid:i ce:f=0.[M] cr:f=0.[ML2] -)",
         ids="own",
+    ),
+    # Blank GEOM: 1.
+    Card(
+        name="CBEND",
+        group=_GROUP,
+        fields="eid:i pid:i=eid>PBEND ga:i>GRID gb:i>GRID x1:u=nan[1] x2:f=nan "
+        "x3:f=nan geom:i=1",
+        finish=finish.bend,
+        more="g0:i>GRID?",
+        ids="own",
+        element=Element(
+            reader="lines.bend:read_cbend",
+            topology=_A_TO_B,
+            results=(
+                Result(
+                    kinds=("force",),
+                    columns=BEND_FORCE,
+                    remark="planes 1 (of the arc) and 2, both ends; no stresses",
+                ),
+            ),
+        ),
+    ),
+    Card(
+        name="PBEND",
+        group=_GROUP,
+        fields="pid:i mid:i>MAT1 a:u[L2] i1:f[L4] i2:f[L4] j:f=0.[L4] rb:f=0.[L] "
+        "thetab:f=0. c1:f=0.[L] c2:f=0.[L] d1:f=0.[L] d2:f=0.[L] e1:f=0.[L] e2:f=0.[L] "
+        "f1:f=0.[L] f2:f=0.[L] k1:f=0. k2:f=0. nsm:f=0.[M/L] rc:f=0.[L] zc:f=0.[L] "
+        "deltan:f=0.[L]",
+        finish=finish.pbend,
+        ids="own",
+        extent="length",
     ),
     Card(
         name="BAROR",

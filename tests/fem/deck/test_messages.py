@@ -87,25 +87,25 @@ def test_what_a_user_should_know_is_said(say, sol, case, bulk, words):
 
 
 def test_options_without_effect_are_said(say):
-    options = ("--envelope", "--ignore", "CBEND")
+    options = ("--envelope", "--ignore", "CBEAM3")
     status, text = say(103, "METHOD=1\nSPC=1", BAR + "EIGRL,1,,,3\n", *options)
     assert status == 0
     assert "notice: --envelope has no effect: no subcase is a transient" in text
-    assert "notice: to be ignored, but not in the deck: CBEND" in text
+    assert "notice: to be ignored, but not in the deck: CBEAM3" in text
     assert not re.search(r"(^|[ ,])-0(\.0*)?([ ,]|$)", text, re.MULTILINE)
 
 
 def test_ignored_cards_are_recorded(say, tmp_path):
-    bulk = BAR + "CBEND,33,14,1,2,5.,5.,0.,1\nPBEND,14,1,1.,1.,1.,1.\nGRID,9\n"
+    bulk = BAR + "CBEAM3,33,14,1,2\nPBEAM3,14,1,1.,1.,1.,1.\nGRID,9\n"
     status, text = say(101, "LOAD=1\nSPC=1", bulk)
     assert status == 2
-    assert "--ignore CBEND,PBEND" in text
-    status, text = say(101, "LOAD=1\nSPC=1", bulk, "--ignore", "cbend,CFOO")
+    assert "--ignore CBEAM3,PBEAM3" in text
+    status, text = say(101, "LOAD=1\nSPC=1", bulk, "--ignore", "cbeam3,CFOO")
     assert status == 0
     assert "but not in the deck: CFOO" in text
     with h5py.File(tmp_path / "model.h5") as file:
-        assert sorted(file.attrs["ignored_cards"]) == ["CBEND", "PBEND"]
-        assert any("CBEND" in notice for notice in file.attrs["notices"])
+        assert sorted(file.attrs["ignored_cards"]) == ["CBEAM3", "PBEAM3"]
+        assert any("CBEAM3" in notice for notice in file.attrs["notices"])
         assert file["autospc/freedom"].asstr()[0] == "grid 9 T1"
 
 
