@@ -16,7 +16,9 @@ from drake_landing.case.schema import Airframe, Case, Matrices
 from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from drake_landing.reduced.legs import with_read_legs
+from drake_landing.reduced.model import ReducedModel
 from fem.arrays import Float64
+from fem.deck.conversions import Units
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
@@ -98,7 +100,7 @@ def _mass_check(
         return None
     given = airframe.mass_cases[airframe.mass_case]
     field = f"airframe.mass_cases.{airframe.mass_case}"
-    return lambda structure: check_target(structure, gears, given, field)
+    return partial(check_target, gears=gears, given=given, field=field)
 
 
 def _steady(
@@ -108,14 +110,20 @@ def _steady(
     given, R_AB = airframe.steady, rotation_AB(airframe.axes)
     if given is None:
         return None
-    return lambda structure: steady_flight(structure, gears, given, R_AB)
+    return partial(steady_flight, gears=gears, given=given, R_AB=R_AB)
 
 
 def _damped(
     read: Callable[[Path], Deck], damping: AirframeDamping | None
 ) -> Callable[[Path], Deck]:
-    """Reading with the damping of the case."""
-    return lambda path: with_damping(read(path), damping)
+    """Reading with the damping of the case; can be sent to another process."""
+    return partial(_read_damped, read=read, damping=damping)
+
+
+def _read_damped(
+    path: Path, read: Callable[[Path], Deck], damping: AirframeDamping | None
+) -> Deck:
+    return with_damping(read(path), damping)
 
 
 def _gears(case: Case, written: WrittenAircraft) -> tuple[LandingGear, ...]:
@@ -172,7 +180,7 @@ def _matrices_deck(
     Raises:
         InputError: the files do not fit together.
     """
-    from drake_landing.reduced.as_deck import deck_with_matrices, write_grids_deck
+    from drake_landing.reduced.as_deck import write_grids_deck
     from drake_landing.reduced.imported import read_reduced
 
     roles = ("stiffness", "mass", "damping", "recovery")
@@ -182,4 +190,10 @@ def _matrices_deck(
     deck = out / "airframe.bdf"
     write_grids_deck(deck, model)
     units = units_of(airframe.units)
-    return deck, lambda path: in_si(deck_with_matrices(path, model), units)
+    return deck, partial(_read_with_matrices, model=model, units=units)
+
+
+def _read_with_matrices(path: Path, model: ReducedModel, units: Units) -> Deck:
+    from drake_landing.reduced.as_deck import deck_with_matrices
+
+    return in_si(deck_with_matrices(path, model), units)

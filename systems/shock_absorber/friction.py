@@ -1,8 +1,10 @@
 """Dry friction of a strut: seals, and bearings against which a side load presses."""
 
+from systems.tools.compiled import law
 from systems.tools.scalar import Scalar, sqrt
 
 
+@law
 def coulomb_force(rate: Scalar, limit: Scalar, transition: float) -> Scalar:
     """Dry friction `limit` (N) against `rate`, smooth within `transition` (m/s).
 
@@ -11,6 +13,7 @@ def coulomb_force(rate: Scalar, limit: Scalar, transition: float) -> Scalar:
     return limit * rate / sqrt(rate * rate + transition * transition)
 
 
+@law
 def bearing_reactions(
     side_load: Scalar,
     s: Scalar,
@@ -37,5 +40,6 @@ def bearing_reactions(
     return _length(upper, across) + _length(force + upper, across)
 
 
+@law
 def _length(x: Scalar, y: Scalar) -> Scalar:
     return abs(x) if y == 0.0 else sqrt(x * x + y * y)

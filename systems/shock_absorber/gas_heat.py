@@ -18,9 +18,10 @@ and lost p_0 V_0 (θ - 1)²/((n - 1) θ τ), never negative: A' + loss = -p V'. 
 have the known energies of `gas_spring`.
 """
 
-from collections.abc import Sequence
+from typing import Any
 
 from systems.shock_absorber.gas_spring import series_split
+from systems.tools.compiled import law
 from systems.tools.scalar import Scalar, log, power
 
 # Force at the precharge (N), length (m), exponent.
@@ -30,56 +31,50 @@ _LEAST_VOLUME = 1e-3
 _ISOTHERMAL = 1e-9
 
 
+@law
 def heated(chamber: Chamber, w: Scalar) -> Chamber:
     """The chamber as a polytropic spring at a given state of heat."""
     return (chamber[0] * w, chamber[1], chamber[2])
 
 
-def volumes(
-    s: Scalar, chambers: Sequence[Chamber], w: Sequence[Scalar]
-) -> list[Scalar]:
-    """x of one chamber, or of two in series, at stroke s."""
-    strokes = [s]
-    if len(chambers) == 2:
-        first, second = (heated(c, h) for c, h in zip(chambers, w))
-        s1 = series_split(s, first, second)[1]
-        strokes = [s1, s - s1]
-    ratios = [1.0 - part / c[1] for part, c in zip(strokes, chambers)]
-    return [x if x > _LEAST_VOLUME else _LEAST_VOLUME + 0.0 * x for x in ratios]
+@law
+def _volume(stroke: Scalar, length: Scalar) -> Scalar:
+    x = 1.0 - stroke / length
+    return x if x > _LEAST_VOLUME else _LEAST_VOLUME + 0.0 * x
 
 
-def heat_rates(
-    x: Sequence[Scalar], chambers: Sequence[Chamber], w: Sequence[Scalar], tau: float
-) -> list[Scalar]:
-    """w' of each chamber, 1/s."""
-    return [
-        (power(volume, c[2] - 1.0) - h) / tau for volume, c, h in zip(x, chambers, w)
-    ]
+@law
+def volumes(s: Scalar, main: Chamber, second: Chamber | None, w: Any) -> Any:
+    """x of both chambers in series at stroke s; 1 where there is no second one."""
+    if second is None:
+        x = _volume(s, main[1])
+        return x, 1.0 + 0.0 * x
+    s1 = series_split(s, heated(main, w[0]), heated(second, w[1]))[1]
+    return _volume(s1, main[1]), _volume(s - s1, second[1])
 
 
-def available_energy(
-    x: Sequence[Scalar], chambers: Sequence[Chamber], w: Sequence[Scalar]
-) -> Scalar:
-    """Stored energy of all chambers, zero at the precharge, J."""
-    total: Scalar = 0.0
-    for volume, (force, length, n), h in zip(x, chambers, w):
-        share = -log(volume)
-        if n - 1.0 > _ISOTHERMAL:
-            theta = h * power(volume, 1.0 - n)
-            share = share + (theta - 1.0 - log(theta)) / (n - 1.0)
-        total = total + force * length * share
-    return total
+@law
+def heat_rate(x: Scalar, chamber: Chamber, w: Scalar, tau: float) -> Scalar:
+    """w' of a chamber, 1/s."""
+    return (power(x, chamber[2] - 1.0) - w) / tau
 
 
-def lost_power(
-    x: Sequence[Scalar], chambers: Sequence[Chamber], w: Sequence[Scalar], tau: float
-) -> Scalar:
+def available_energy(x: Scalar, chamber: Chamber, w: Scalar) -> Scalar:
+    """Stored energy of a chamber, zero at the precharge, J."""
+    force, length, n = chamber
+    share = -log(x)
+    if n - 1.0 > _ISOTHERMAL:
+        theta = w * power(x, 1.0 - n)
+        share = share + (theta - 1.0 - log(theta)) / (n - 1.0)
+    return force * length * share
+
+
+@law
+def heat_loss(x: Scalar, chamber: Chamber, w: Scalar, tau: float) -> Scalar:
     """Stored energy lost by heat that flows at unequal temperatures, W, >= 0."""
-    total: Scalar = 0.0
-    for volume, (force, length, n), h in zip(x, chambers, w):
-        if n - 1.0 > _ISOTHERMAL:
-            theta = h * power(volume, 1.0 - n)
-            excess = theta - 1.0
-            loss = excess * excess / ((n - 1.0) * theta * tau)
-            total = total + force * length * loss
-    return total
+    force, length, n = chamber
+    if not n - 1.0 > _ISOTHERMAL:
+        return 0.0 * x * w
+    theta = w * power(x, 1.0 - n)
+    excess = theta - 1.0
+    return force * length * excess * excess / ((n - 1.0) * theta * tau)

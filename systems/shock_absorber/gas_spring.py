@@ -19,6 +19,7 @@ Ambient pressure is not subtracted: precharge is the force that the gas exerts.
 from dataclasses import dataclass
 
 from systems.tools.checks import require
+from systems.tools.compiled import law
 from systems.tools.scalar import Scalar, log, power
 
 # Below this distance from 1 the exponent is isothermal: the closed form of the energy
@@ -116,6 +117,7 @@ class GasSpring:
         return self.gas_length + (self.second.gas_length if self.second else 0.0)
 
 
+@law
 def polytropic(s: Scalar, f0: Scalar, length: Scalar, n: Scalar) -> Scalar:
     """Force of one chamber at stroke s < length, N."""
     return f0 * power(1.0 - s / length, -n)
@@ -128,6 +130,7 @@ def polytropic_energy(s: Scalar, f0: Scalar, length: Scalar, n: Scalar) -> Scala
     return f0 * length / (n - 1.0) * (power(1.0 - s / length, 1.0 - n) - 1.0)
 
 
+@law
 def series_split(
     s: Scalar, main: tuple[Scalar, Scalar, Scalar], second: tuple[float, float, float]
 ) -> tuple[Scalar, Scalar]:
@@ -158,6 +161,7 @@ def series_split(
     return f2 * power(y, -n1), l1 * (1.0 - ratio * y)
 
 
+@law
 def gas_force(
     s: Scalar,
     main: tuple[Scalar, Scalar, Scalar],
@@ -197,14 +201,23 @@ def gas_energy(
     return energy + d * (force + 0.5 * _gas_stiffness(force, main, second) * d)
 
 
+@law
 def _gas_stiffness(
     force: Scalar,
     main: tuple[Scalar, Scalar, Scalar],
     second: tuple[float, float, float] | None,
 ) -> Scalar:
     """dF/ds where the gas force is `force`, N/m."""
-    compliance: Scalar = 0.0
-    for f0, length, n in (main, second) if second else (main,):
-        if force >= f0:
-            compliance = compliance + length / n * power(f0 / force, 1.0 / n) / force
+    compliance = _compliance(force, main)
+    if second is not None:
+        compliance = compliance + _compliance(force, second)
     return 1.0 / compliance
+
+
+@law
+def _compliance(force: Scalar, chamber: tuple[Scalar, Scalar, Scalar]) -> Scalar:
+    """Stroke of a chamber per force, m/N; none below its precharge."""
+    f0, length, n = chamber
+    if not force >= f0:
+        return 0.0 * force
+    return length / n * power(f0 / force, 1.0 / n) / force

@@ -4,9 +4,13 @@ d is one value for compression and one for rebound, in N s²/m², either multipl
 table over stroke (a metering pin), or over stroke and rate (valves).
 """
 
-from systems.tools.grid import Grid
+from numba import types
+from numba.extending import overload
+
+from systems.tools.compiled import law
+from systems.tools.grid import Grid, interpolated
 from systems.tools.scalar import Scalar, sqrt
-from systems.tools.table import Table
+from systems.tools.table import Table, look_up
 
 Metering = Table | Grid | None
 # Rate within which the flow through an orifice is laminar, m/s; where the oil is
@@ -23,6 +27,32 @@ def coefficient(s: Scalar, speed: Scalar, d: Scalar, metering: Metering) -> Scal
     return d * metering.value(s)
 
 
+@overload(coefficient)
+def _coefficient(s, speed, d, metering):
+    if isinstance(metering, types.NoneType):
+        return lambda s, speed, d, metering: d
+    if isinstance(metering, types.Array):
+        return lambda s, speed, d, metering: d * look_up(metering, s)
+    return lambda s, speed, d, metering: d * interpolated(metering, s, speed)
+
+
+def arrays(metering: Metering) -> object:
+    """What stands for a table in compiled laws."""
+    return metering and (metering.axes if isinstance(metering, Grid) else metering.rows)
+
+
+def varies_with_rate(metering: Metering) -> bool:
+    """Whether the coefficient depends on the rate."""
+    return isinstance(metering, Grid)
+
+
+@overload(varies_with_rate)
+def _varies_with_rate(metering):
+    found = isinstance(metering, types.BaseTuple)
+    return lambda metering: found
+
+
+@law
 def orifice_force(
     s: Scalar,
     rate: Scalar,
@@ -45,6 +75,7 @@ def orifice_force(
     return -coefficient(s, -rate, rebound, rebound_metering) * rate * rate
 
 
+@law
 def orifice_rate(
     s: Scalar,
     force: Scalar,
@@ -56,23 +87,27 @@ def orifice_rate(
     """Rate at which a force (N) drives the oil, m/s: the inverse of d q √(q² + v_0²),
     which is `orifice_force` but for the slowest rates.
     """
-    inward = force >= 0.0
-    d, metering = (
-        (compression, compression_metering) if inward else (rebound, rebound_metering)
-    )
-    size = force if inward else -force
-    if not isinstance(metering, Grid):
-        q = _rate(size, coefficient(s, 0.0, d, metering))
-    else:
-        low, high = 0.0, 20.0
-        for _ in range(50):
-            q = 0.5 * (low + high)
-            enough = q * sqrt(q * q + _LAMINAR**2) * coefficient(s, q, d, metering)
-            low, high = (q, high) if enough < size else (low, q)
-        q = _rate(size, coefficient(s, high, d, metering))
-    return q if inward else -q
+    if force >= 0.0:
+        return _flow(s, force, compression, compression_metering)
+    return -_flow(s, -force, rebound, rebound_metering)
 
 
+@law
+def _flow(s: Scalar, size: Scalar, d: Scalar, metering: Metering) -> Scalar:
+    if not varies_with_rate(metering):
+        return _rate(size, coefficient(s, 0.0, d, metering))
+    low, high = 0.0, 20.0
+    for _ in range(50):
+        q = 0.5 * (low + high)
+        enough = q * sqrt(q * q + _LAMINAR**2) * coefficient(s, q, d, metering)
+        if enough < size:
+            low = q
+        else:
+            high = q
+    return _rate(size, coefficient(s, high, d, metering))
+
+
+@law
 def _rate(force: Scalar, d: Scalar) -> Scalar:
     if not d > 0.0:
         raise ValueError("oil spring: an orifice without damping, expected > 0 N s²/m²")

@@ -1,5 +1,6 @@
 """A shock absorber, as a Drake system; the law is in `strut_law`."""
 
+import numpy as np
 from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
 from pydrake.common.value import Value
@@ -32,6 +33,8 @@ def ShockAbsorber_(T):
         | in `strut_state` | 2 | m, m/s | stroke, rate; positive in compression |
         | in `side_load` (optional) | 3 | N, N m | force across the strut at the axle,
           moment bending with it, moment across that; of `SideLoad` |
+        | in `damping_command` (optional) | 1 | | factor on the damping of the orifice,
+          > 0: a semi-active valve |
         | out `force` | 1 | N | along the strut, positive apart |
         | out `energy` | 1 | J | stored, zero at zero stroke |
         | out `dissipated_power` | 1 | W | >= 0 |
@@ -43,7 +46,7 @@ def ShockAbsorber_(T):
         long time at the present stroke leaves.
 
         Numeric parameters: `ShockAbsorberTunables`; `set_tunables`. A side load that is
-        not connected is zero.
+        not connected is zero, a command 1.
         """
 
         def _construct(self, parameters: ShockAbsorberParameters, converter=None):
@@ -55,6 +58,8 @@ def ShockAbsorber_(T):
             )
             self._state = self.DeclareVectorInputPort("strut_state", 2)
             self._side_load = self.DeclareVectorInputPort("side_load", 3)
+            self._command = self.DeclareVectorInputPort("damping_command", 1)
+            self._no_load = np.array([T(0.0)] * 3)
             parameter = self.numeric_parameter_ticket(self._tunables)
             state = {self._state.ticket(), parameter}
             initial = parameters.initial_state
@@ -62,14 +67,14 @@ def ShockAbsorber_(T):
                 self.DeclareContinuousState(BasicVector_[T](initial))
                 state.add(self.xc_ticket())
             self._has_state = bool(initial)
-            everything = {*state, self._side_load.ticket()}
+            everything = {*state, self._side_load.ticket(), self._command.ticket()}
             # The law is evaluated once for force, components and power.
-            self._forces = self.DeclareCacheEntry(
+            self._response = self.DeclareCacheEntry(
                 "law",
                 ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
                 everything,
             )
-            law = {self._forces.ticket()}
+            law = {self._response.ticket()}
             for name, size, calc, tickets in (
                 ("force", 1, self._calc_force, law),
                 ("energy", 1, self._calc_energy, state),
@@ -134,55 +139,64 @@ def ShockAbsorber_(T):
             The context is one of this system, `strut_state` connected or fixed.
             """
             if self._has_state:
-                s, _, _, p, _ = self._inputs(context)
+                s, p, _ = self._inputs(context)
                 settled = self._law.settled(s, p)
                 context.get_mutable_continuous_state_vector().SetFromVector(settled)
 
         def _inputs(self, context):
-            """stroke, rate, side load, tunables, state."""
-            s, rate = self._state.Eval(context).tolist()
+            """stroke, tunables, state."""
+            s = self._state.Eval(context).tolist()[0]
             p = context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
-            side_load = [0.0, 0.0, 0.0]
-            if p[6] > 0.0 and self._side_load.HasValue(context):
-                side_load = self._side_load.Eval(context).tolist()
-            return s, rate, side_load, p, self._own_state(context)
+            state = self._own_state(context)
+            return s, p, None if state is None else state.tolist()
 
         def _own_state(self, context):
             if not self._has_state:
                 return None
-            return context.get_continuous_state_vector().CopyToVector().tolist()
+            return context.get_continuous_state_vector().CopyToVector()
 
         def _calc_law(self, context, value):
-            """The parts of the force."""
-            s, rate, (side, *moment), p, state = self._inputs(context)
-            value.set_value(self._law.forces(s, rate, side, p, state, moment))
+            """The response, see StrutLaw."""
+            motion = self._state.Eval(context)
+            p = context.get_numeric_parameter(self._tunables).CopyToVector()
+            load = self._no_load
+            if p[6] > 0.0 and self._side_load.HasValue(context):
+                load = self._side_load.Eval(context)
+            state = self._own_state(context)
+            if self._command.HasValue(context):
+                p[3:5] = p[3:5] * self._command.Eval(context)[0]
+            if T is float:
+                found = self._law.response_of_floats(motion, load, p, state)
+            else:
+                s, rate = motion.tolist()
+                state = None if state is None else state.tolist()
+                found = self._law.response(s, rate, load.tolist(), p.tolist(), state)
+            value.set_value(found)
 
         def _calc_force(self, context, output):
-            output.SetAtIndex(0, self._forces.Eval(context).total)
+            output.SetAtIndex(0, self._response.Eval(context).forces.total)
 
         def _calc_energy(self, context, output):
-            s, _, _, p, state = self._inputs(context)
+            s, p, state = self._inputs(context)
             output.SetAtIndex(0, self._law.energy(s, p, state))
 
         def _calc_dissipated_power(self, context, output):
-            s, rate, _, p, state = self._inputs(context)
-            forces = self._forces.Eval(context)
-            output.SetAtIndex(0, self._law.lost_power(s, rate, forces, p, state))
+            output.SetAtIndex(0, self._response.Eval(context).lost_power)
 
         def _calc_components(self, context, output):
-            gas, damping, friction, elastic, damper = self._forces.Eval(context)
+            forces = self._response.Eval(context).forces
+            gas, damping, friction, elastic, damper = forces
             output.SetFromVector([gas, damping, friction, elastic + damper])
 
         def _calc_gas_pressure(self, context, output):
-            s, _, _, p, state = self._inputs(context)
+            s, p, state = self._inputs(context)
             area = self._parameters.gas.area
             output.SetAtIndex(0, self._law.gas_force(s, p, state) / area)
 
         def DoCalcTimeDerivatives(self, context, derivatives):
             if self._has_state:
-                s, _, _, p, state = self._inputs(context)
                 derivatives.get_mutable_vector().SetFromVector(
-                    self._law.rates(s, p, state)
+                    self._response.Eval(context).rates
                 )
 
     return Impl

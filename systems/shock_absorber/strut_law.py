@@ -22,26 +22,30 @@ the gas.
 Energy: d(energy)/dt + dissipated_power = force × rate, energy zero at rest.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
+import numpy as np
+import numpy.typing as npt
 from pydrake.common.containers import namedview
 
-from systems.shock_absorber.friction import bearing_reactions, coulomb_force
-from systems.shock_absorber.gas_heat import (
+from systems.shock_absorber.gas_heat import available_energy, volumes
+from systems.shock_absorber.gas_spring import GasSpring, gas_energy
+from systems.shock_absorber.orifice_damper import Metering, arrays
+from systems.shock_absorber.strut_forces import (
     Chamber,
-    available_energy,
-    heat_rates,
-    heated,
-    lost_power,
-    volumes,
+    Constants,
+    heated_gas_force,
+    strut_forces,
+    strut_forces_of_floats,
 )
-from systems.shock_absorber.gas_spring import GasSpring, gas_energy, gas_force
-from systems.shock_absorber.orifice_damper import Metering, orifice_force, orifice_rate
 from systems.tools.checks import require
 from systems.tools.grid import Grid
 from systems.tools.scalar import Scalar
-from systems.tools.stops import contact_elastic, contact_energy, never_pulling
+from systems.tools.stops import contact_energy
+
+Float64 = npt.NDArray[np.float64]
 
 ShockAbsorberTunables = namedview(
     "ShockAbsorberTunables",
@@ -219,6 +223,14 @@ class StrutForces(NamedTuple):
         return self.damping + self.friction + self.stop_damping
 
 
+class StrutResponse(NamedTuple):
+    """Forces; power that turns into heat, W, >= 0; time derivatives of the state."""
+
+    forces: StrutForces
+    lost_power: Scalar
+    rates: list[Scalar]
+
+
 class StrutLaw:
     """The force law of one strut: pure functions of stroke, rate, side load and state.
 
@@ -236,6 +248,19 @@ class StrutLaw:
             else None
         )
         self._second_length = self._second[1] if self._second else 0.0
+        numbers = Constants(
+            max_stroke=float(p.max_stroke),
+            extension_stop=float(p.extension_stop_stiffness),
+            bottoming_stop=float(p.bottoming_stop_stiffness),
+            stop_damping=float(p.stop_damping),
+            axle_arm=float(p.axle_arm),
+            bearing_distance=float(p.bearing_distance),
+            transition=float(p.friction_transition),
+        )
+        metering = p.compression_metering, p.rebound_metering
+        states = p.thermal_time, p.oil_stiffness
+        self._constants = (numbers, self._second, *metering, *states)
+        self._arrays = (numbers, self._second, *map(arrays, metering), *states)
 
     def _limit(self, gas_length: Scalar) -> Scalar:
         length = gas_length + self._second_length
@@ -250,9 +275,6 @@ class StrutLaw:
         main = (tunables[0], tunables[1], tunables[2])
         return [main] if self._second is None else [main, self._second]
 
-    def _gas_stroke(self, s: Scalar, state: list[Scalar] | None) -> Scalar:
-        return s if state is None or self._p.oil_stiffness is None else state[-1]
-
     def forces(
         self,
         s: Scalar,
@@ -266,52 +288,62 @@ class StrutLaw:
 
         The moment (N m) is that of the side load's surplus, see `bearing_reactions`.
         """
-        p = self._p
-        f0, _, _, compression, rebound, seal, bearing = tunables
-        gas = self.gas_force(s, tunables, state)
-        if state is not None and p.oil_stiffness is not None:
-            damping = f0 + p.oil_stiffness * (s - state[-1]) - gas
-        else:
-            damping = orifice_force(
-                s,
-                rate,
-                compression,
-                rebound,
-                p.compression_metering,
-                p.rebound_metering,
-            )
-        friction = 0.0 * rate
-        if seal > 0.0 or bearing > 0.0:
-            reactions = bearing_reactions(
-                side_load, s, p.axle_arm, p.bearing_distance, moment
-            )
-            friction = coulomb_force(
-                rate, seal * gas + bearing * reactions, p.friction_transition
-            )
-        # F_0 - k s rather than k (F_0/k - s): exactly F_0 at zero stroke.
-        elastic = damper = 0.0 * rate
-        extension = f0 - p.extension_stop_stiffness * s
-        if extension > 0.0:
-            elastic = -extension
-            damper = -never_pulling(extension, -extension * p.stop_damping * rate)
-        bottoming = contact_elastic(s - p.max_stroke, p.bottoming_stop_stiffness)
-        if bottoming > 0.0:
-            elastic = elastic + bottoming
-            damper = damper + never_pulling(
-                bottoming, bottoming * p.stop_damping * rate
-            )
-        return StrutForces(gas, damping, friction, elastic, damper)
+        return self.response(s, rate, [side_load, *moment], tunables, state).forces
+
+    def response(
+        self,
+        s: Scalar,
+        rate: Scalar,
+        load: Sequence[Scalar],
+        tunables: list[Scalar],
+        state: list[Scalar] | None = None,
+    ) -> "StrutResponse":
+        """Forces, power lost and rates of the state.
+
+        Args:
+            s, rate: m, m/s.
+            load: side load, N, and the moments of its surplus, N m.
+            tunables, state: as everywhere here.
+        """
+        limit = self._limit(tunables[1])
+        found = strut_forces(
+            s, rate, load, tunables, *self._split(state), limit, *self._constants
+        )
+        return self._as_response(found)
+
+    def response_of_floats(
+        self, motion: Float64, load: Float64, tunables: Float64, state: Float64 | None
+    ) -> "StrutResponse":
+        """The same of arrays, compiled; (2) stroke and rate."""
+        s, rate = motion.tolist()
+        limit = float(self._limit(tunables[1]))
+        found = strut_forces_of_floats(
+            s, rate, load, tunables, *self._split(state), limit, *self._arrays
+        )
+        return self._as_response(found)
+
+    def _split(self, state: Any) -> tuple[Any, Any]:
+        """Stroke of the gas, heat; None where there is no such state."""
+        if state is None:
+            return None, None
+        heats = self._p.heats
+        oil = None if self._p.oil_stiffness is None else state[-1]
+        return oil, state[:heats] if heats else None
+
+    def _as_response(self, found: tuple[Scalar, ...]) -> "StrutResponse":
+        rates = [*found[6 : 6 + self._p.heats]]
+        if self._p.oil_stiffness is not None:
+            rates.append(found[8])
+        return StrutResponse(StrutForces(*found[:5]), found[5], rates)
 
     def gas_force(
         self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None = None
     ) -> Scalar:
         """Force of the gas alone, N."""
-        chambers = self._chambers(tunables)
-        if state is not None and self._p.heats:
-            chambers = [heated(c, w) for c, w in zip(chambers, state)]
-        second = chambers[1] if len(chambers) == 2 else None
-        at = self._gas_stroke(s, state)
-        return gas_force(at, chambers[0], second, self._limit(tunables[1]))
+        oil, heat = self._split(state)
+        main = (tunables[0], tunables[1], tunables[2])
+        at = s if oil is None else oil
+        return heated_gas_force(at, main, self._second, heat, self._limit(tunables[1]))
 
     def energy(
         self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None = None
@@ -332,20 +364,22 @@ class StrutLaw:
     def _gas_energy(
         self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None
     ) -> Scalar:
-        chambers, limit = self._chambers(tunables), self._limit(tunables[1])
-        at = self._gas_stroke(s, state)
-        if state is None or not self._p.heats:
-            second = chambers[1] if len(chambers) == 2 else None
-            return gas_energy(at, chambers[0], second, limit)
+        main, limit = (tunables[0], tunables[1], tunables[2]), self._limit(tunables[1])
+        oil, heat = self._split(state)
+        at = s if oil is None else oil
+        if heat is None:
+            return gas_energy(at, main, self._second, limit)
         inside = at if at < limit else limit
-        x = volumes(inside, chambers, state)
-        energy = available_energy(x, chambers, state)
+        x = volumes(inside, main, self._second, heat)
+        energy = available_energy(x[0], main, heat[0])
+        if self._second is not None:
+            energy = energy + available_energy(x[1], self._second, heat[1])
         if at < limit:
             return energy
         # Along the tangent, as the force.
         return energy + 0.5 * (at - limit) * (
-            self.gas_force(limit, tunables, [*state[: self._p.heats], limit])
-            + self.gas_force(s, tunables, state)
+            heated_gas_force(limit, main, self._second, heat, limit)
+            + heated_gas_force(at, main, self._second, heat, limit)
         )
 
     def _oil_energy(self, s: Scalar, f0: Scalar, state: list[Scalar] | None) -> Scalar:
@@ -355,55 +389,11 @@ class StrutLaw:
         pressed = s - state[-1]
         return pressed * (f0 + 0.5 * k * pressed)
 
-    def lost_power(
-        self,
-        s: Scalar,
-        rate: Scalar,
-        forces: StrutForces,
-        tunables: list[Scalar],
-        state: list[Scalar] | None = None,
-    ) -> Scalar:
-        """Power that turns into heat, W, >= 0."""
-        if state is None:
-            return forces.dissipating * rate
-        lost, flow = (forces.friction + forces.stop_damping) * rate, rate
-        if self._p.oil_stiffness is not None:
-            flow = self._flow(s, forces.damping, tunables, state)
-        lost = lost + forces.damping * flow
-        if self._p.thermal_time is not None:
-            chambers = self._chambers(tunables)
-            x = volumes(self._within(s, tunables, state), chambers, state)
-            lost = lost + lost_power(x, chambers, state, self._p.thermal_time)
-        return lost
-
-    def _within(
-        self, s: Scalar, tunables: list[Scalar], state: list[Scalar] | None
-    ) -> Scalar:
-        at, limit = self._gas_stroke(s, state), self._limit(tunables[1])
-        return at if at < limit else limit
-
-    def _flow(
-        self, s: Scalar, force: Scalar, tunables: list[Scalar], state: list[Scalar]
-    ) -> Scalar:
-        """Rate of the stroke of the gas, m/s."""
-        p = self._p
-        metering = p.compression_metering, p.rebound_metering
-        return orifice_rate(state[-1], force, tunables[3], tunables[4], *metering)
-
     def rates(
         self, s: Scalar, tunables: list[Scalar], state: list[Scalar]
     ) -> list[Scalar]:
-        """Time derivatives of the state."""
-        p, rates = self._p, []
-        if p.thermal_time is not None:
-            chambers = self._chambers(tunables)
-            x = volumes(self._within(s, tunables, state), chambers, state)
-            rates = heat_rates(x, chambers, state, p.thermal_time)
-        if p.oil_stiffness is not None:
-            gas = self.gas_force(s, tunables, state)
-            carried = tunables[0] + p.oil_stiffness * (s - state[-1])
-            rates.append(self._flow(s, carried - gas, tunables, state))
-        return rates
+        """Time derivatives of the state; the rate of the stroke has no part in them."""
+        return self.response(s, 0.0 * s, [0.0, 0.0, 0.0], tunables, state).rates
 
     def settled(self, s: float, tunables: list[float]) -> list[float]:
         """The state after a long time at a stroke (m): as warm as the walls, no flow.
@@ -426,7 +416,7 @@ class StrutLaw:
         if not self._p.heats:
             return [gas_stroke]
         chambers, limit = self._chambers(tunables), self._limit(tunables[1])
-        at = min(gas_stroke, limit)
         isothermal = [(force, length, 1.0) for force, length, _ in chambers]
-        x = volumes(at, isothermal, [1.0] * len(chambers))
+        second = isothermal[1] if len(chambers) == 2 else None
+        x = volumes(min(gas_stroke, limit), isothermal[0], second, [1.0, 1.0])
         return [v ** (c[2] - 1.0) for v, c in zip(x, chambers)] + [gas_stroke]

@@ -12,9 +12,13 @@ axes μ F_z and ν μ F_z, and always opposes sliding.
 
 from dataclasses import dataclass
 
+from numba import types
+from numba.extending import overload
+
 from systems.tools.checks import require
+from systems.tools.compiled import law
 from systems.tools.scalar import Scalar, atan, sin, sqrt
-from systems.tools.table import Table
+from systems.tools.table import Table, look_up
 
 # Below this slip μ(ρ)/ρ is its limit, the initial slope.
 _TINY = 1e-9
@@ -91,15 +95,48 @@ class TabulatedSlip:
 SlipCurve = SineSlip | TabulatedSlip
 
 
+def slope(curve: SlipCurve) -> float:
+    """dμ/dρ at zero slip."""
+    return curve.initial_slope
+
+
+def mu(curve: SlipCurve, slip: Scalar) -> Scalar:
+    """Friction coefficient at slip >= 0."""
+    return curve.mu(slip)
+
+
+def constants(curve: SlipCurve) -> object:
+    """What stands for the curve in compiled laws."""
+    if isinstance(curve, TabulatedSlip):
+        return curve.table.rows
+    return float(curve.peak), float(curve.shape), float(curve.stiffness)
+
+
+@overload(slope)
+def _slope(curve):
+    if isinstance(curve, types.Array):
+        return lambda curve: curve[2, 0]
+    return lambda curve: curve[0] * curve[1] * curve[2]
+
+
+@overload(mu)
+def _mu(curve, slip):
+    if isinstance(curve, types.Array):
+        return lambda curve, slip: look_up(curve, slip)
+    return lambda curve, slip: curve[0] * sin(curve[1] * atan(curve[2] * slip))
+
+
+@law
 def secant(curve: SlipCurve, along: Scalar, across: Scalar) -> Scalar:
     """μ(ρ)/ρ at the slip components (κ, c τ)."""
     square = along * along + across * across
     if square < _TINY * _TINY:
-        return curve.initial_slope
+        return slope(curve) + 0.0 * square
     slip = sqrt(square)
-    return curve.mu(slip) / slip
+    return mu(curve, slip) / slip
 
 
+@law
 def reference_speed(speed: Scalar, low_speed: float) -> Scalar:
     """|v| in the denominator of slip; a parabola below `low_speed` (m/s).
 

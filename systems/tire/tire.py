@@ -139,11 +139,15 @@ def Tire_(T):
             slip_state = None
             if self._lagged:
                 state = context.get_continuous_state_vector()
-                slip_state = state.CopyToVector().tolist()
-            wheel = self._wheel.Eval(context).tolist()
-            value.set_value(
-                self._law.contact(wheel, slip_state, self._factors(context))
-            )
+                slip_state = state.CopyToVector()
+            wheel = self._wheel.Eval(context)
+            factors = context.get_numeric_parameter(self._tunables).CopyToVector()
+            if T is float:
+                contact = self._law.contact_of_floats(wheel, slip_state, factors)
+            else:
+                slip = None if slip_state is None else slip_state.tolist()
+                contact = self._law.contact(wheel.tolist(), slip, factors.tolist())
+            value.set_value(contact)
 
         def _calc_wrench(self, context, output):
             output.SetFromVector(self._contact.Eval(context)[:6])

@@ -25,27 +25,32 @@ runway.
 
 from dataclasses import dataclass, field
 
+import numpy as np
+import numpy.typing as npt
+
 from systems.runway.runway import Runway
 from systems.tire.aircraft_tire import trail_share
+from systems.tire.contact import (
+    Constants,
+    Tables,
+    contact,
+    contact_of_floats,
+    elastic_force,
+    friction,
+    rolling_radius,
+)
 from systems.tire.magic_formula import MagicFormula
-from systems.tire.slip import SineSlip, SlipCurve, reference_speed, secant
+from systems.tire.slip import SineSlip, SlipCurve, TabulatedSlip, constants
 from systems.tools.checks import require
-from systems.tools.scalar import Scalar, sqrt
-from systems.tools.stops import contact_elastic, contact_energy, never_pulling
+from systems.tools.scalar import Scalar
+from systems.tools.stops import contact_energy
 from systems.tools.table import Table
 
-# With a relaxation length: least share of it that is left where the tyre slides (the
-# deflected length is force over stiffness, far less than at the same slip unsaturated).
-_LEAST_RELAXATION = 0.1
-# With a relaxation length: near standstill the carcass is a spring; this much of its
-# stiffness acts as damping (s), fading out at the given speed (m/s).
-_STANDSTILL_DAMPING = 0.01
-_STANDSTILL_SPEED = 2.5
+Float64 = npt.NDArray[np.float64]
+
 # Least relaxation length over the radius, where it follows from the carcass: that of a
 # tyre that hardly touches would be nothing.
 _SHORTEST = 0.5
-# Rate of deflection within which hysteresis changes sides, m/s.
-_HYSTERESIS_RATE = 0.02
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -263,13 +268,43 @@ class TireLaw:
         self._rim_stiffness = (
             0.0 if p.bottoming_deflection is None else p.bottoming_stiffness
         )
-        self._kept = 1.0 - 0.5 * p.hysteresis
-        self._lag_along, self._lag_across = relaxation_lengths(self)
-        self._scale = self._lateral_scale()
+        self._constants = Constants(
+            radius=float(p.radius),
+            kept=1.0 - 0.5 * p.hysteresis,
+            hysteresis=float(p.hysteresis),
+            rim=float(self._rim),
+            rim_stiffness=float(self._rim_stiffness),
+            rolling_share=(
+                0.0 if isinstance(p.rolling_radius, Table) else float(p.rolling_radius)
+            ),
+            rolling_resistance=float(p.rolling_resistance),
+            lateral_ratio=float(p.lateral_friction_ratio),
+            lateral_scale=float(p.lateral_slip_scale),
+            low_speed=float(p.low_speed),
+            ground=float(runway.friction),
+        )
+        along, across = relaxation_lengths(self)
         # The trail falls with the slip as it does with the angle.
         per_slip = p.slip.initial_slope / p.slip.peak if p.slip.peak else 1.0
         slips = [4.0 / per_slip * i / 80 for i in range(81)]
-        self._trail_share = Table(slips, [trail_share(per_slip * s) for s in slips])
+        rolling = p.rolling_radius
+        self._tables = Tables(
+            elastic=self._elastic,
+            damping=self._damping,
+            rolling=rolling if isinstance(rolling, Table) else None,
+            curve=p.slip,
+            scale=self._lateral_scale(),
+            lag_along=along,
+            lag_across=across,
+            trail=p.trail,
+            trail_share=Table(slips, [trail_share(per_slip * s) for s in slips]),
+        )
+        self._rows = [
+            constants(table)
+            if isinstance(table, SineSlip | TabulatedSlip)
+            else table and table.rows
+            for table in self._tables
+        ]
 
     @property
     def parameters(self) -> TireParameters:
@@ -278,9 +313,8 @@ class TireLaw:
     def rolling_radius(self, deflection: Scalar) -> Scalar:
         """Speed over spin of a wheel that rolls freely, m."""
         rolling = self._p.rolling_radius
-        if isinstance(rolling, Table):
-            return rolling.value(deflection)
-        return self._p.radius - rolling * deflection
+        table = rolling if isinstance(rolling, Table) else None
+        return rolling_radius(deflection, self._constants, table)
 
     def ratios(
         self, deflection: Scalar, along: Scalar, across: Scalar
@@ -291,13 +325,21 @@ class TireLaw:
             deflection: m, > 0.
             along, across: sliding velocity along t and l over the speed.
         """
-        speed = 10.0 * self._p.low_speed
+        speed, ground = 10.0 * self._p.low_speed, self._runway.friction
         load = self.elastic_force(deflection)
         if not load > 0.0:
             return 0.0, 0.0
-        slide = (along * speed, across * speed)
-        forces = self._friction(*slide, -speed, deflection, load, 1.0, 0.0, None)
-        return forces[1] / load, forces[2] / load
+        wheel_slip = along, across
+        if self._p.magic_formula is not None:
+            forces = self._p.magic_formula.along_wheel(load, *wheel_slip, -speed, 0.0)
+            return forces[0] * ground / load, forces[1] * ground / load
+        t = self._tables
+        scale = self._p.lateral_slip_scale
+        if t.scale is not None:
+            scale = t.scale.value(deflection)
+        common = (ground, scale, self._constants, t.curve, t.trail, t.trail_share)
+        forces = friction(*wheel_slip, -speed, deflection, load, *common)
+        return forces[0] / load, forces[1] / load
 
     def deflection_under(self, load: float) -> float:
         """Deflection at which the tyre carries a load (N) at rest, m; at most half the
@@ -338,18 +380,13 @@ class TireLaw:
 
     def elastic_force(self, deflection: Scalar, factor: Scalar = 1.0) -> Scalar:
         """Radial force at rest, N."""
-        if deflection <= 0.0:
-            return 0.0
-        force = factor * self._kept * self._elastic.value(deflection)
-        if deflection > self._rim:
-            force = force + contact_elastic(deflection - self._rim, self._rim_stiffness)
-        return force
+        return elastic_force(deflection, factor, self._constants, self._elastic)
 
     def energy(self, deflection: Scalar, factor: Scalar = 1.0) -> Scalar:
         """Energy stored in the radial deflection, J."""
         if deflection <= 0.0:
             return 0.0
-        stored = factor * self._kept * self._elastic.integral(deflection)
+        stored = factor * self._constants.kept * self._elastic.integral(deflection)
         return stored + contact_energy(deflection - self._rim, self._rim_stiffness)
 
     def deflection(self, wheel: list[Scalar]) -> Scalar:
@@ -375,163 +412,20 @@ class TireLaw:
             12 speed of travel along t, m/s; 13 dissipated power, W; 14, 15 rates of
             the lagged slips, 1/s.
         """
-        px, py, pz, ax, ay, az, vx, vy, vz, wx, wy, wz = wheel
-        r, nx, ny, nz = self._runway.nearest(px, py, pz, ax, ay, az)
-        deflection = self._p.radius - r
-        if deflection <= 0.0:
-            return self._airborne(wheel, deflection, slip_state)
-        # t = a × n / c, e = t × a, l = n × t
-        tilt = nx * ax + ny * ay + nz * az
-        c = _cosine(tilt)
-        tx = (ay * nz - az * ny) / c
-        ty = (az * nx - ax * nz) / c
-        tz = (ax * ny - ay * nx) / c
-        lx, ly, lz = ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx
-        # q = P - C = -r e
-        qx, qy, qz = (
-            -r * (nx - tilt * ax) / c,
-            -r * (ny - tilt * ay) / c,
-            -r * (nz - tilt * az) / c,
-        )
-        ux, uy, uz = (
-            vx + wy * qz - wz * qy,
-            vy + wz * qx - wx * qz,
-            vz + wx * qy - wy * qx,
-        )
-        rate = -(ux * nx + uy * ny + uz * nz) / c
-        rolling = self.rolling_radius(deflection)
-        spin = wx * ax + wy * ay + wz * az
-        # At P the material slides by v_t - r_r ω · a along the wheel.
-        slide_t = ux * tx + uy * ty + uz * tz + (r - rolling) * spin
-        slide_l = ux * lx + uy * ly + uz * lz
-        travel = vx * tx + vy * ty + vz * tz
-
-        elastic = self.elastic_force(deflection, factors[0])
-        loss = factors[1] * self._damping.value(deflection) * rate
-        if self._p.hysteresis > 0.0:
-            loss = loss + self._hysteresis(deflection, rate, factors[0])
-        damping = never_pulling(elastic, loss)
-        fz = (elastic + damping) / c
-        slip, ft, fl, turning, rate_t, rate_l = self._friction(
-            slide_t, slide_l, travel, deflection, fz, factors[2], tilt, slip_state
-        )
-        # About the axle: the arm of F_t is the rolling radius; rolling resistance.
-        about = (r - rolling) * ft
-        if self._p.rolling_resistance > 0.0:
-            about = about - self._resistance(spin, rolling, fz)
-        yawing = wx * nx + wy * ny + wz * nz
-        fx, fy, fz_w = (
-            fz * nx + ft * tx + fl * lx,
-            fz * ny + ft * ty + fl * ly,
-            fz * nz + ft * tz + fl * lz,
-        )
-        return (
-            qy * fz_w - qz * fy + about * ax + turning * nx,
-            qz * fx - qx * fz_w + about * ay + turning * ny,
-            qx * fy - qy * fx + about * az + turning * nz,
-            fx,
-            fy,
-            fz_w,
-            deflection,
-            fz,
-            ft,
-            fl,
-            slip,
-            slide_l,
-            travel,
-            damping * rate
-            - ft * slide_t
-            - fl * slide_l
-            - turning * yawing
-            - (about - (r - rolling) * ft) * spin,
-            rate_t,
-            rate_l,
+        ground = self._runway.nearest(*wheel[:6])
+        tables = self._tables, self._p.magic_formula
+        return contact(
+            wheel, *ground, slip_state, factors, self._constants, *tables[0], tables[1]
         )
 
-    def _hysteresis(self, deflection: Scalar, rate: Scalar, factor: Scalar) -> Scalar:
-        """What loading takes beyond the stored force, and unloading gives less, N."""
-        force = 0.5 * self._p.hysteresis * factor * self._elastic.value(deflection)
-        return force * rate / sqrt(rate * rate + _HYSTERESIS_RATE * _HYSTERESIS_RATE)
-
-    def _resistance(self, spin: Scalar, rolling: Scalar, load: Scalar) -> Scalar:
-        """Moment of rolling resistance, in the sense of the spin, N m."""
-        slow = self._p.low_speed / self._p.radius
-        sense = spin / sqrt(spin * spin + slow * slow)
-        return self._p.rolling_resistance * load * rolling * sense
-
-    def _friction(
-        self,
-        slide_t: Scalar,
-        slide_l: Scalar,
-        travel: Scalar,
-        deflection: Scalar,
-        load: Scalar,
-        factor: Scalar,
-        tilt: Scalar,
-        slip_state: list[Scalar] | None,
-    ) -> tuple[Scalar, Scalar, Scalar, Scalar, Scalar, Scalar]:
-        """Slip along t, F_t, F_l, moment about n, rates of the lagged slips.
-
-        With a relaxation length L the slips lag: L* κ' + |v| κ = v_slide, L* falling
-        from L with the secant of the friction curve, as the carcass deflects by force
-        over stiffness.
-        """
-        p, friction = self._p, factor * self._runway.friction
-        scale = p.lateral_slip_scale
-        if self._scale is not None:
-            scale = self._scale.value(deflection)
-        if slip_state is None:
-            speed = reference_speed(travel, p.low_speed)
-            k_t, k_l = slide_t / speed, slide_l / speed
-            rate_t = rate_l = 0.0
-        else:
-            k_t, k_l = slip_state
-            share = 1.0
-            if p.magic_formula is None and p.slip.initial_slope > 0.0:
-                share = secant(p.slip, k_t, scale * k_l) / p.slip.initial_slope
-                share = share if share > _LEAST_RELAXATION else _LEAST_RELAXATION
-            along = self._lag_along.value(deflection)
-            across = self._lag_across.value(deflection)
-            magnitude = abs(travel)
-            rate_t = (slide_t - magnitude * k_t) / (along * share)
-            rate_l = (slide_l - magnitude * k_l) / (across * share)
-            if magnitude < _STANDSTILL_SPEED:
-                fade = 1.0 - magnitude / _STANDSTILL_SPEED
-                damping = _STANDSTILL_DAMPING * fade * fade
-                k_t = k_t + damping / along * slide_t
-                k_l = k_l + damping / across * slide_l
-        if p.magic_formula is not None:
-            forces = p.magic_formula.along_wheel(load, k_t, k_l, travel, tilt)
-            ft, fl, turning = (friction * value for value in forces)
-            return k_t, ft, fl, turning, rate_t, rate_l
-        across = scale * k_l
-        share = load * friction * secant(p.slip, k_t, across)
-        side = -share * p.lateral_friction_ratio * across
-        turning = 0.0
-        if p.trail is not None:
-            trail = p.trail.value(deflection)
-            trail = trail * self._trail_share.value(sqrt(k_t * k_t + across * across))
-            sense = travel / sqrt(travel * travel + p.low_speed * p.low_speed)
-            turning = -sense * trail * side
-        return (k_t, -share * k_t, side, turning, rate_t, rate_l)
-
-    def _airborne(
-        self,
-        wheel: list[Scalar],
-        deflection: Scalar,
-        slip_state: list[Scalar] | None,
-    ) -> tuple[Scalar, ...]:
-        """No force; the carcass springs back within a relaxation length of travel."""
-        rate_t = rate_l = 0.0
-        if slip_state is not None:
-            vx, vy = wheel[6], wheel[7]
-            # +1: springs back at rest, too, and smooth there.
-            speed = (vx * vx + vy * vy + 1.0) ** 0.5
-            rate_t = -speed / self._lag_along.y[0] * slip_state[0]
-            rate_l = -speed / self._lag_across.y[0] * slip_state[1]
-        z = 0.0 * deflection
-        return (z, z, z, z, z, z, deflection, *([z] * 7), rate_t, rate_l)
-
-
-def _cosine(tilt: Scalar) -> Scalar:
-    return (1.0 - tilt * tilt) ** 0.5
+    def contact_of_floats(
+        self, wheel: Float64, slip_state: Float64 | None, factors: Float64
+    ) -> tuple[float, ...]:
+        """The same of arrays, compiled."""
+        if self._p.magic_formula is not None:
+            slip = None if slip_state is None else slip_state.tolist()
+            return self.contact(wheel.tolist(), slip, factors.tolist())
+        ground = self._runway.nearest(*wheel[:6].tolist())
+        return contact_of_floats(
+            wheel, *ground, slip_state, factors, self._constants, *self._rows
+        )

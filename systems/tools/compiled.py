@@ -8,7 +8,8 @@ The machine code is kept in the user's cache folder (Linux: ~/.cache/drake-landi
 compiled), or below the folder that the environment's NUMBA_CACHE_DIR names, under a
 name that depends on the text of the module and of `vectors`, on Python, numba and the
 processor: a compiled function calls only compiled functions of its own module and of
-`vectors`. Nothing is written beside the modules.
+`vectors`; a compiled law those of its room and of this one. Nothing is written beside
+the modules.
 """
 
 import hashlib
@@ -24,6 +25,7 @@ import platformdirs
 from llvmlite.binding import get_host_cpu_name
 from numba import njit
 from numba.core import config
+from numba.extending import register_jitable
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -55,8 +57,31 @@ def compiled(function: Callable[P, R], *, nogil: bool = False) -> Callable[P, R]
         function: of a module.
         nogil: other threads of Python run on meanwhile.
     """
-    options = {**_OPTIONS, "nogil": nogil}
     folder = _folder(function.__code__.co_filename)
+    return _compiled(function, folder, {**_OPTIONS, "nogil": nogil})
+
+
+def law(function: Callable[P, R]) -> Callable[P, R]:
+    """A formula for floats and AutoDiffXd, unchanged; a compiled law may call it."""
+    return cast(Callable[P, R], register_jitable(function))
+
+
+def compiled_law(function: Callable[P, R]) -> Callable[P, R]:
+    """A compiled twin of a formula that calls functions marked `law`.
+
+    The formula itself stays as it is and serves AutoDiffXd. The functions it calls are
+    of its own room and of this one. Sums are not reordered: what is exactly zero in
+    Python is so here.
+    """
+    import systems.tools.overloads  # noqa: F401  registers them
+
+    file = Path(function.__code__.co_filename)
+    rooms = sorted({*file.parent.glob("*.py"), *Path(__file__).parent.glob("*.py")})
+    folder = _folder(str(file), tuple(rooms))
+    return _compiled(function, folder, {"error_model": "numpy"})
+
+
+def _compiled(function: Callable[P, R], folder: Path, options: dict) -> Callable[P, R]:
     if not _writable(folder):
         return cast(Callable[P, R], njit(**options)(function))
     # Numba looks up the folder when it decorates.
@@ -67,16 +92,19 @@ def compiled(function: Callable[P, R], *, nogil: bool = False) -> Callable[P, R]
         config.CACHE_DIR = before
 
 
-def _folder(file: str) -> Path:
-    """Folder of the machine code of a module."""
-    return compiled_folder() / f"{Path(file).stem}-{_edition(file)}"
+def _folder(file: str, others: tuple[Path, ...] = ()) -> Path:
+    """Folder of the machine code of a module, which calls others or the vocabulary."""
+    return (
+        compiled_folder()
+        / f"{Path(file).stem}-{_edition(file, others or (_VOCABULARY,))}"
+    )
 
 
 @cache
-def _edition(file: str) -> str:
+def _edition(file: str, others: tuple[Path, ...]) -> str:
     """Of all that machine code depends on."""
     machine = f"{sys.version} {numba.__version__} {get_host_cpu_name()}"
-    text = Path(file).read_bytes() + _VOCABULARY.read_bytes()
+    text = b"".join(path.read_bytes() for path in (Path(file), *others))
     return hashlib.sha256(machine.encode() + text).hexdigest()[:16]
 
 

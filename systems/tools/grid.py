@@ -1,10 +1,12 @@
 """Tables over two variables: bilinear between the points, held beyond the last ones."""
 
 import math
-from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+
+import numpy as np
+import numpy.typing as npt
 
 from systems.tools.scalar import Scalar
 
@@ -48,12 +50,17 @@ class Grid:
 
     def value(self, x: Scalar, y: Scalar) -> Scalar:
         """z at (x, y)."""
-        i, u = _place(self.x, x)
-        j, v = _place(self.y, y)
+        i, u = place(self.x, x)
+        j, v = place(self.y, y)
         low, high = self.z[i], self.z[i + 1]
         return (1.0 - u) * ((1.0 - v) * low[j] + v * low[j + 1]) + u * (
             (1.0 - v) * high[j] + v * high[j + 1]
         )
+
+    @property
+    def axes(self) -> tuple[npt.NDArray[np.float64], ...]:
+        """x (n,), y (m,), z (n, m): what `interpolated` takes when compiled."""
+        return np.array(self.x), np.array(self.y), np.array(self.z)
 
     @property
     def least(self) -> float:
@@ -61,12 +68,23 @@ class Grid:
         return min(v for row in self.z for v in row)
 
 
-def _place(axis: Sequence[float], x: Scalar) -> tuple[int, Scalar]:
+def interpolated(grid: Grid, x: Scalar, y: Scalar) -> Scalar:
+    """z at (x, y); in compiled laws of a grid's `axes`."""
+    return grid.value(x, y)
+
+
+def place(axis: Sequence[float], x: Scalar) -> tuple[int, Scalar]:
     """Interval of x and its share of it, held at the ends."""
     if x <= axis[0]:
         return 0, 0.0 * x
     last = len(axis) - 2
     if x >= axis[-1]:
         return last, 1.0 + 0.0 * x
-    i = bisect_right(axis, x) - 1
+    i, end = 0, last + 1
+    while end - i > 1:
+        middle = (i + end) // 2
+        if axis[middle] <= x:
+            i = middle
+        else:
+            end = middle
     return i, (x - axis[i]) / (axis[i + 1] - axis[i])

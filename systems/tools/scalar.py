@@ -1,7 +1,8 @@
 """Elementary functions that take a float or an AutoDiffXd.
 
 The laws of this room are written once for both. Floats go straight to `math`, which is
-many times faster than the overloads of pydrake.
+many times faster than the overloads of pydrake. Compiled laws (`compiled.compiled_law`)
+may call them, too (`overloads`).
 """
 
 import math

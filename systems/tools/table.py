@@ -10,6 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 
+import numpy as np
+import numpy.typing as npt
+
 from systems.tools.scalar import Scalar
 
 
@@ -87,6 +90,16 @@ class Table:
         return self._area[i] + d * (self.y[i] + 0.5 * self._slope[i] * d)
 
     @property
+    def rows(self) -> npt.NDArray[np.float64]:
+        """(3, n) abscissae, ordinates, slopes: what `look_up` takes when compiled."""
+        return np.array([self.x, self.y, self._slope])
+
+    @property
     def ascending(self) -> bool:
         """No ordinate is less than the one before it."""
         return all(b >= a for a, b in pairwise(self.y))
+
+
+def look_up(table: Table, x: Scalar) -> Scalar:
+    """y at x; in compiled laws of a table's `rows`."""
+    return table.value(x)

@@ -1,5 +1,6 @@
 """The whole process on the tiny aircraft, and what both models must agree on."""
 
+import pickle
 import subprocess
 import sys
 from pathlib import Path
@@ -339,3 +340,11 @@ def test_extremes_of_all_elements_are_kept(result: ProcessResult, folder: Path) 
         extremes = group["min"][at, column], group["max"][at, column]
     assert max(map(abs, extremes)) == largest
     assert abs(row["value"]) == pytest.approx(largest, rel=1e-8)
+
+
+def test_aircraft_can_be_sent_to_another_process(tmp_path: Path) -> None:
+    """Studies fly their landings in processes of their own."""
+    aircraft = prepare_aircraft(variant(), tmp_path)
+    sent = pickle.loads(pickle.dumps(aircraft))
+    grids = sent.read(sent.deck).cards["GRID"]
+    assert grids.equals(aircraft.read(aircraft.deck).cards["GRID"])
