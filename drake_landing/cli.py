@@ -36,6 +36,15 @@ def _out(default: str) -> Any:
     return typer.Option("--out", help=f"folder of the results; default {default}")
 
 
+Reach = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--include-path", help="folder that INCLUDE may read beside the deck's"
+    ),
+]
+Trust = Annotated[bool, typer.Option("--trust", help="INCLUDE may read any file")]
+
+
 def _show_version(wanted: bool) -> None:
     if wanted:
         from importlib.metadata import version
@@ -79,11 +88,15 @@ def run(
             help="compare with rigid-airframe gear loads and with static slices",
         ),
     ] = False,
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """The whole process for a case: landing, direct transient, comparison, report."""
     from drake_landing.case.reading import load_case
+    from fem.deck.source import include_reach
 
-    _run(load_case(case), out, practices=practices)
+    with include_reach(include_path or [], trust=trust):
+        _run(load_case(case), out, practices=practices)
 
 
 @app.command()
@@ -93,9 +106,9 @@ def conditions(
 ) -> None:
     """Ground-load conditions of CS-25 or CS-23 as balanced static cases."""
     from drake_landing.case.reading import load_case
-    from drake_landing.output import claim
     from drake_landing.process.conditions import run_conditions, summary
     from drake_landing.progress import reporter
+    from fem.files.folders import claim
 
     loaded = load_case(case)
     folder = out or Path("out", "conditions", loaded.name)
@@ -119,9 +132,12 @@ def check(
     thorough: Annotated[
         bool, typer.Option("--thorough", help="factorise very large models too")
     ] = False,
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """Explains a case after a dry run: deck, mechanisms, gears, initial state."""
     from drake_landing.case.reading import case_text, load_case, schema_text
+    from fem.deck.source import include_reach
     from fem.errors import InputError
 
     if schema:
@@ -139,7 +155,8 @@ def check(
     checked = load_case(case)
     from drake_landing.process.explain import explain
 
-    print(explain(checked, _default_folder(checked), thorough=thorough))
+    with include_reach(include_path or [], trust=trust):
+        print(explain(checked, _default_folder(checked), thorough=thorough))
     if everything:
         print(f"\nall values, defaults included:\n\n{case_text(checked)}", end="")
     else:
@@ -182,14 +199,18 @@ def show(
     deck: Annotated[Path, typer.Argument(metavar="MODEL.bdf", help="Nastran deck")],
     out: Annotated[Path | None, _out("out/show/<name of the deck>")] = None,
     modes: Annotated[int, typer.Option("--modes", help="elastic modes to show")] = 10,
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """Pictures of a deck: mesh by component, modes, a viewer that needs no server."""
-    from drake_landing.output import claim
     from drake_landing.show import show_model
+    from fem.deck.source import include_reach
+    from fem.files.folders import claim
 
     _expect_deck(deck)
     folder = claim(out or Path("out", "show", deck.stem), f"show {deck.name}")
-    show_model(deck, folder, modes)
+    with include_reach(include_path or [], trust=trust):
+        show_model(deck, folder, modes)
 
 
 @app.command()
@@ -198,11 +219,11 @@ def study(
     out: Annotated[Path | None, _out("out/study/<name>")] = None,
 ) -> None:
     """The paper's studies: numbers of modes, gear topologies, the full aircraft."""
-    from drake_landing.output import claim
     from drake_landing.progress import reporter
     from drake_landing.reference.studies import PLANS, run_study
     from drake_landing.reference.studies.findings import findings
     from fem.errors import InputError, nearest
+    from fem.files.folders import claim
 
     if name not in PLANS:
         raise InputError(
@@ -272,15 +293,19 @@ def reduce(
     compare: Annotated[
         float, typer.Option("--compare", help="modes compared with the full model, Hz")
     ] = 50.0,
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """Reduces a deck to interface grids; checks; HDF5, DMIG punch and OUTPUT4."""
-    from drake_landing.output import claim
     from drake_landing.reduced.command import reduce_deck
+    from fem.deck.source import include_reach
+    from fem.files.folders import claim
 
     _expect_deck(deck)
     folder = claim(out or Path("out", "reduce", deck.stem), f"reduce {deck.name}")
     options = {"highest_hz": highest, "count": count, "compare_hz": compare}
-    print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
+    with include_reach(include_path or [], trust=trust):
+        print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
 
 
 @app.command("show-run")
@@ -349,9 +374,9 @@ def _default_folder(case: "Case") -> Path:
 
 
 def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
-    from drake_landing.output import claim
     from drake_landing.process.run import run_case
     from drake_landing.progress import reporter
+    from fem.files.folders import claim
 
     folder = claim(out or _default_folder(case), f"run {case.name}")
     with reporter() as progress:

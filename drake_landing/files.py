@@ -9,6 +9,7 @@ from typing import Any
 import pandas as pd
 
 from fem.files.aside import write_aside
+from fem.files.escaping import cell
 
 _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
 
@@ -20,10 +21,18 @@ def versions() -> dict[str, str]:
 
 
 def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:
-    """Nine significant digits, zero without a sign; NaN is an empty cell."""
+    """Nine significant digits, zero without a sign; NaN is an empty cell.
+
+    Text that a spreadsheet would compute gets a `'` before it.
+    """
     plain = table.copy()
     floats = plain.select_dtypes("floating").columns
     plain[floats] = plain[floats] + 0.0  # -0.0 + 0.0 is 0.0
+    for name in plain.columns[
+        [not pd.api.types.is_numeric_dtype(t) for t in plain.dtypes]
+    ]:
+        plain[name] = [cell(v) if isinstance(v, str) else v for v in plain[name]]
+    plain.columns = [cell(str(name)) for name in plain.columns]
     write_aside(path, lambda to: plain.to_csv(to, index=index, float_format="%.9g"))
 
 

@@ -4,6 +4,7 @@ Exit status 0 on success, 2 on bad input (one message, no traceback), 1 on an in
 failure.
 """
 
+import contextlib
 import os
 import sys
 import traceback
@@ -132,18 +133,30 @@ def run(
     quality: Annotated[
         bool, typer.Option("--quality", help="Print the worst shapes of elements.")
     ] = False,
+    include_path: Annotated[
+        list[Path] | None,
+        typer.Option(help="Folder that INCLUDE may read beside that of the deck."),
+    ] = None,
+    trust: Annotated[
+        bool, typer.Option("--trust", help="INCLUDE may read any file.")
+    ] = False,
     threads: Annotated[
         int | None, typer.Option(min=1, help="Threads of the sparse solver.")
     ] = None,
 ) -> None:
     """Solve a Nastran deck's own case control and write DIR/<deck>.h5."""
     from fem.deck.reader import read_deck
+    from fem.deck.source import include_reach
     from fem.errors import InputError
+    from fem.files.escaping import file_name
     from fem.files.export import export, wants_op2
+    from fem.files.folders import claimed
     from fem.solution import Options, run_deck, solution_problems
 
     console = RichConsole()
-    try:
+    with contextlib.ExitStack() as stack:
+        stack.callback(console.close)
+        stack.enter_context(include_reach(include_path or [], trust=trust))
         names = [name for name in ignore.replace(" ", "").split(",") if name]
         try:
             model = read_deck(deck, ignore=names)
@@ -151,6 +164,7 @@ def run(
             # What makes the rest moot comes first.
             raise InputError([*solution_problems(deck), *error.problems]) from None
         folder = out if out is not None else Path("out", "fem", deck.stem)
+        stack.enter_context(claimed(folder, "fem", file_name(deck.stem)))
         options = Options(
             threads=threads,
             envelope=envelope,
@@ -161,8 +175,6 @@ def run(
         results = run_deck(model, folder / f"{deck.stem}.h5", options)
         wanted = wants_op2(model) if op2 is None else op2
         export(results, model, op2=wanted, paraview=paraview, say=console.say)
-    finally:
-        console.close()
 
 
 def main(arguments: list[str] | None = None) -> None:

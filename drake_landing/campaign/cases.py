@@ -12,10 +12,10 @@ from fnmatch import fnmatch
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 
 from drake_landing.campaign.schema import Campaign, Scale, Value
+from drake_landing.case.document import read_document
 from drake_landing.case.reading import parse_case, parse_model, read_text
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
@@ -54,7 +54,7 @@ class BaseCase:
         text = read_text(path)
         self.case = parse_case(text, file=str(path), folder=path.parent)
         self.folder = path.parent
-        self._data: Data = yaml.safe_load(text)
+        self._data: Data = read_document(text, str(path))[0]
         self._data.pop("$schema", None)
         if gears is not None:
             self._gears = [json.loads(g.model_dump_json(by_alias=True)) for g in gears]

@@ -15,10 +15,10 @@ from drake_landing.campaign.run import (
 )
 from drake_landing.campaign.schema import Campaign
 from drake_landing.files import write_csv
-from drake_landing.output import claim
 from drake_landing.process.run import run_case
 from drake_landing.progress import reporter
 from fem.errors import InputError
+from fem.files.folders import claim
 
 
 def campaign_command(

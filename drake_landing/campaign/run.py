@@ -167,7 +167,7 @@ def run_campaign(
 def _named_gears(case: Case):
     from tempfile import TemporaryDirectory
 
-    with TemporaryDirectory() as folder:
+    with case.reading(), TemporaryDirectory() as folder:
         return prepare_aircraft(case, Path(folder)).gears
 
 

@@ -172,7 +172,7 @@ class Campaign(Section):
     """Many landings of one aircraft."""
 
     name: str = Field(
-        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$",
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,79}$",
         description="names the campaign and its folder: letters, digits, . _ -",
     )
     title: str = Field(default="", description="one line for the page")

@@ -136,7 +136,7 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         InputError: deck, gears or places are at fault.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    with case.places.located():
+    with case.reading():
         aircraft = prepare_aircraft(case, folder)
         progress.stage(f"{aircraft.name}: deck, matrices, modes")
         structure = aircraft.structure()

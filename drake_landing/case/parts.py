@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from drake_landing.case.labels import Label
 from drake_landing.case.section import Section, number
 
 Range = tuple[float, float]
@@ -24,7 +25,7 @@ class Beam(Section):
     All coordinates are those of the deck's basic frame.
     """
 
-    name: str = Field(description="e.g. right wing")
+    name: Label = Field(description="e.g. right wing")
     outward: Literal["aft", "fore", "starboard", "port", "up", "down"] = Field(
         description="where the part that is cut off lies, as seen from the cut"
     )
@@ -72,7 +73,7 @@ class Component(Section):
 class Panel(Section):
     """A point between two stiff ones, e.g. in the middle of a frame bay."""
 
-    name: str
+    name: Label
     grid: int = Field(description="of the panel's middle")
     beside: tuple[int, ...] = Field(
         description="grids of its neighbours on the frames", min_length=1
@@ -89,7 +90,7 @@ class Parts(Section):
         default={},
         description="material id -> allowable stress, Pa; otherwise ST of MAT1",
     )
-    components: dict[str, Component] = Field(
+    components: dict[Label, Component] = Field(
         default={},
         description="name -> what belongs to it; of several that fit an element the "
         "first has it. The rest is named by groups of the deck's program, banners, "
@@ -103,7 +104,7 @@ class Parts(Section):
     panels: tuple[Panel, ...] = Field(
         default=(), description="panel middles, beside their frames"
     )
-    equipment: dict[str, int] = Field(
+    equipment: dict[Label, int] = Field(
         default={},
         description="name and grid id of places that carry equipment: floor, rails",
     )

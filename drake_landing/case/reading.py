@@ -14,11 +14,29 @@ import yaml
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
+from drake_landing.case.document import read_document
 from drake_landing.case.places import Places
 from drake_landing.case.schema import Case
 from fem.errors import InputError, nearest
 
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+# What pydantic says of types, in words of people.
+_PLAIN = {
+    "string_type": "text",
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "int_type": "an integer",
+    "int_parsing": "an integer",
+    "int_parsing_size": "an integer of fewer digits",
+    "int_from_float": "an integer",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "list_type": "a list: [..., ...]",
+    "tuple_type": "a list: [..., ...]",
+    "path_type": "the name of a file",
+    "finite_number": "a finite number",
+}
 
 _FIELD = re.compile(r"([a-z]\w*(?:\.\w+)*): ")
 
@@ -68,11 +86,7 @@ def parse_model(
     Raises:
         InputError: every problem, each with its line and field.
     """
-    try:
-        tree = yaml.compose(text, Loader=yaml.SafeLoader)
-        data = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise InputError(_syntax_problem(file, error)) from None
+    data, tree = read_document(text, file)
     if not isinstance(tree, yaml.MappingNode):
         raise InputError(
             f"{file}:1: expected a mapping of sections, found {_kind(data)}"
@@ -121,12 +135,6 @@ def read_text(path: Path) -> str:
         raise InputError(
             f"{path}: not a UTF-8 text file (byte {error.start})"
         ) from None
-
-
-def _syntax_problem(file: str, error: yaml.YAMLError) -> str:
-    mark = getattr(error, "problem_mark", None)
-    line = f"{mark.line + 1}" if mark else "1"
-    return f"{file}:{line}: not valid YAML: {getattr(error, 'problem', None) or error}"
 
 
 def _kind(data: Any) -> str:
@@ -206,7 +214,7 @@ def _explain(
         message = "a mapping of keys and values"
     if error["type"] == "string_pattern_mismatch":
         message = f"text that matches {error['ctx']['pattern']}"
-    message = message.removeprefix("Input should be ")
+    message = _PLAIN.get(error["type"], message).removeprefix("Input should be ")
     if error["type"] == "literal_error" and isinstance(error["input"], str):
         choices = str(error["ctx"]["expected"]).replace("'", "").replace(" or ", ", ")
         message += nearest(error["input"], choices.split(", "))
@@ -219,6 +227,8 @@ def _is_scalar(value: Any) -> bool:
 
 
 def _show(value: Any) -> str:
+    if value in ("true", "false"):  # see `document`
+        return str(value)
     text = repr(value) if _is_scalar(value) else _kind(value)
     return text if len(text) <= 60 else text[:57] + "..."
 

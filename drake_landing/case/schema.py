@@ -6,6 +6,8 @@ Lengths in m, speeds in m/s, angles in degrees, times in s.
 """
 
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -26,6 +28,7 @@ from pydantic import (
 from drake_landing.case.bushing import Bushing
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
+from drake_landing.case.labels import Label
 from drake_landing.case.mass_cases import MassCase, known_mass_case
 from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
@@ -35,6 +38,7 @@ from drake_landing.case.steady import Steady
 from drake_landing.files import relative_to_case
 from drake_landing.gears.data import AnyGear
 from drake_landing.parametric import registered
+from fem.deck.source import include_reach
 from fem.errors import nearest
 
 Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
@@ -205,6 +209,10 @@ class Airframe(Section):
         gt=0,
         le=5000,
     )
+    include_paths: tuple[Path, ...] = Field(
+        default=(),
+        description="folders that INCLUDE of the deck may read, beside its own",
+    )
     damping: AirframeDamping | None = Field(
         default=None,
         description="damping beside the deck's, or instead of it; default: the deck's",
@@ -215,7 +223,7 @@ class Airframe(Section):
         "the selected modes lack (attachment modes); their high frequencies make the "
         "multibody run slower",
     )
-    monitoring: dict[str, int] = Field(
+    monitoring: dict[Label, int] = Field(
         default={},
         description="monitoring points: name and grid id; the built-in models have "
         "their own",
@@ -248,10 +256,10 @@ class Airframe(Section):
             )
         return model
 
-    @field_validator("deck", mode="after")
+    @field_validator("deck", "include_paths", mode="after")
     @classmethod
-    def _relative_to_case(cls, deck: Path | None, info: ValidationInfo) -> Path | None:
-        return relative_to_case(deck, info.context)
+    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
+        return relative_to_case(found, info.context)
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:
@@ -351,7 +359,7 @@ class Case(Section):
     model_config = ConfigDict(json_schema_extra=_named_schema)
 
     name: str = Field(
-        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]*$",
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,79}$",
         description="names the run and its folder: letters, digits, . _ -",
     )
     title: str = Field(default="", description="one line for the report")
@@ -377,6 +385,12 @@ class Case(Section):
     def places(self) -> Places:
         """Where its fields were written."""
         return self._places
+
+    @contextmanager
+    def reading(self) -> Iterator[None]:
+        """Errors within say file and line; INCLUDE reaches what the case adds."""
+        with self.places.located(), include_reach(self.airframe.include_paths):
+            yield
 
     def written_at(self, places: Places) -> Self:
         """The same case, with the places of its fields."""

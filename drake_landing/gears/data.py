@@ -41,7 +41,7 @@ class LandingGear(Data):
     """Names of the fields that are positions in B."""
 
     name: str = Field(
-        pattern=r"^[a-z][a-z0-9_]*$",
+        pattern=r"^[a-z][a-z0-9_]{0,39}$",
         description="unique; lower case, digits and underscores, e.g. main_left",
     )
     kind: str

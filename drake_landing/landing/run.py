@@ -28,6 +28,7 @@ from drake_landing.landing.history import (
     LandingHistory,
 )
 from drake_landing.landing.settling import LIMIT, Settling, has_settled, swing_of
+from drake_landing.landing.stall import StallWatch
 from drake_landing.landing.start import (
     make_scenario_diagram,
     reference_energy,
@@ -218,7 +219,10 @@ def _simulator(
     ApplySimulatorConfig(config, simulator)
     context.SetAccuracy(simulation.accuracy)
 
+    watch = StallWatch(landing)
+
     def tell(root: Context) -> EventStatus:
+        watch.step(root)
         now = root.get_time()
         progress.share(now / _end(simulation), f"{now:.3f} s")
         return EventStatus.DidNothing()

@@ -10,6 +10,7 @@ from drake_landing.parts.pictures import can_draw, draw_field, stress_field
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.tables import component_table
 from drake_landing.parts.watch import PartsFound
+from fem.files.escaping import file_name
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
@@ -67,7 +68,7 @@ def stress_pictures(
         field = stress_field(structure, stresses, snapshot, own)
         if not len(field.faces):
             continue  # of sticks the whole shows as much
-        path = out / "pictures" / f"stress_{name.replace(' ', '_')}.png"
+        path = out / "pictures" / f"stress_{file_name(name)}.png"
         draw_field(path, field, close=True, up=up, aft=aft)
         pictures.append(
             (

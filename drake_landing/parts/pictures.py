@@ -61,9 +61,11 @@ def can_draw() -> bool:
     """Whether VTK can draw here; a crash of a driver stays in a process of its own."""
     if os.environ.get("DRAKE_LANDING_PICTURES", "").lower() == "off":
         return False
-    done = subprocess.run(
-        [sys.executable, "-c", _TRY], capture_output=True, timeout=120, check=False
-    )
+    command = [sys.executable, "-c", _TRY]
+    try:
+        done = subprocess.run(command, capture_output=True, timeout=120, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
     return done.returncode == 0
 
 

@@ -72,7 +72,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         InputError: everything that is wrong with deck, gears and scenario, with the
             lines of the case.
     """
-    with case.places.located(), TemporaryDirectory() as folder:
+    with case.reading(), TemporaryDirectory() as folder:
         aircraft = prepare_aircraft(case, Path(folder))
         structure = aircraft.structure()
         check_nodes(structure, aircraft)

@@ -5,7 +5,9 @@
 `run_case` is the whole story; each chapter is a module of its own.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -75,7 +77,7 @@ def run_case(
         InputError: case, deck or gears are at fault; every problem is named.
         LandingError: the landing could not be integrated.
     """
-    with case.places.located():
+    with case.reading():
         return _run_case(case, Path(out), Stages(progress), practices)
 
 
@@ -299,17 +301,35 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
     stages = result.stages
     stages.begin("writing the result files")
     write_files(result, out)
-    write_replay(out / "landing.html", result)
+    lost: list[str] = []
+    with _at_most_lost("landing.html, the replay,", lost):
+        write_replay(out / "landing.html", result)
     stages.begin("pictures of the stress field")
-    structure, parts = result.airframe.structure, result.parts
-    pictures, unable = stress_pictures(
-        out, structure, watch.stresses, parts, result.case.parts, result.airframe.R_AB
+    structure, parts, R_AB = (
+        result.airframe.structure,
+        result.parts,
+        result.airframe.R_AB,
     )
+    pictures, unable = [], "Pictures of the stress field failed, see the notices."
+    with _at_most_lost("pictures of the stress field", lost):
+        pictures, unable = stress_pictures(
+            out, structure, watch.stresses, parts, result.case.parts, R_AB
+        )
     stages.begin("writing the report")
+    result = replace(result, notices=(*result.notices, *lost))
     write_report(out / "report.html", result, pictures, unable)
     stages.end()
     write_csv(out / "stages.csv", units.with_units(stages.table()))
     write_readme(result, out)
+
+
+@contextmanager
+def _at_most_lost(what: str, lost: list[str]) -> Iterator[None]:
+    """What goes wrong with a picture costs the picture, not the report."""
+    try:
+        yield
+    except Exception as error:
+        lost.append(f"{what} could not be made: {type(error).__name__}: {error}")
 
 
 def write_files(result: ProcessResult, out: Path) -> None:

@@ -130,7 +130,14 @@ def draw_errors(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
     for (name, table), marker in zip(tables.items(), "osv^Dx+*"):
         table = table[table.mac >= PAIRED]
         error = np.maximum(100 * table.error.abs(), 1e-10)
-        axes.semilogy(table.full_hz, error, marker, label=name, ms=4, alpha=0.8)
+        axes.semilogy(
+            table.full_hz,
+            error,
+            marker,
+            label=name.replace("$", r"\$"),
+            ms=4,
+            alpha=0.8,
+        )
     axes.set_xlabel("frequency of the full model, Hz")
     axes.set_ylabel("frequency error, %")
     axes.grid(True, which="major", alpha=0.4)

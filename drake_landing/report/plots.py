@@ -5,6 +5,7 @@ Text stays text in the SVG, so the page's own font applies and words can be sear
 
 import io
 import re
+import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
@@ -14,6 +15,9 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatter
+
+from fem.files.escaping import attribute
 
 Float64 = npt.NDArray[np.float64]
 
@@ -26,6 +30,7 @@ WIDTH = 9.6  # inch; the page scales the picture to its column
 
 _STYLE = {
     "svg.fonttype": "none",
+    "text.parse_math": False,  # names may have a $
     "svg.hashsalt": "drake-landing",  # equal data give equal files
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -79,7 +84,10 @@ def svg(figure: Figure, label: str) -> str:
         label: what it shows, for readers that do not see it.
     """
     out = io.StringIO()
-    with mpl.rc_context(_STYLE):
+    _plain_ticks(figure)
+    with mpl.rc_context(_STYLE), warnings.catch_warnings():
+        # The page's fonts have what this one has not.
+        warnings.filterwarnings("ignore", "Glyph .* missing")
         figure.savefig(out, format="svg", metadata={"Date": None}, transparent=True)
     text = out.getvalue()
     text = text[text.index("<svg") :]
@@ -89,7 +97,17 @@ def svg(figure: Figure, label: str) -> str:
     mark = f"f{abs(hash_of(label)):x}-"
     text = re.sub(r'\bid="', f'id="{mark}', text)
     text = re.sub(r'(xlink:href="#|url\(#)', rf"\1{mark}", text)
-    return text.replace("<svg", f'<svg role="img" aria-label="{label}"', 1)
+    shown = attribute(label)
+    return text.replace("<svg", f'<svg role="img" aria-label="{shown}"', 1)
+
+
+def _plain_ticks(figure: Figure) -> None:
+    """Decades as plain numbers: nothing is mathematics here."""
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() == "log":
+                axis.set_major_formatter(LogFormatter())
+                axis.set_minor_formatter(LogFormatter(labelOnlyBase=False))
 
 
 def hash_of(text: str) -> int:

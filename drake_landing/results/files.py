@@ -44,6 +44,7 @@ from drake_landing.results.units import (
     with_units,
 )
 from fem.files.aside import write_aside
+from fem.files.escaping import group_name
 from fem.recovery.envelope import Envelope
 from systems.airframe.modal_body import ModalBody
 
@@ -112,7 +113,7 @@ def write_results(
             _write_loads(file.create_group("attachment_loads"), loads)
             _write_history(file.create_group("multibody"), history)
             for point, table in response.items():
-                _write_series(file, f"fe/monitoring/{point}", table)
+                _write_series(file, f"fe/monitoring/{group_name(point)}", table)
             for envelope in envelopes:
                 envelope.write(file)
             _name_units(file)
@@ -164,7 +165,7 @@ def _write_history(group: h5py.Group, history: LandingHistory) -> None:
     }
     for kind, tables in kinds.items():
         for name, table in tables.items():
-            _write_series(group, f"{kind}/{name}", table)
+            _write_series(group, f"{kind}/{group_name(name)}", table)
     _write_series(group, "motion", history.motion)
     _write_series(group, "energy", history.energy, unit="J")
     _dataset(group, "modal_amplitudes", history.amplitudes, "1")
@@ -188,7 +189,7 @@ def _write_series(
 def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
     _dataset(group, "time", parts.time, "s")
     for name, cuts in parts.cuts.items():
-        at = group.create_group(f"sections/{name}")
+        at = group.create_group(f"sections/{group_name(name)}")
         _dataset(at, "station", cuts.beam.stations, "m")
         _dataset(at, "point", cuts.point, "m")
         at["value"] = parts.landing.sections[name]

@@ -21,6 +21,7 @@ from fem.deck.sections import split_sections
 from fem.deck.source import Line, read_source
 from fem.errors import InputError
 from fem.files.aside import written_aside
+from fem.files.escaping import comment
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -81,8 +82,9 @@ def transient_deck(
     )
     first = free_ids(bulk, 2 + components[0].size)
     for text in head:
-        yield from (f"$ {line}" for line in wrap(text, _WIDTH - 2))
-    yield from ("SOL 109", "CEND", f"TITLE = {title[:60].upper()}", *selections)
+        yield from (f"$ {line}" for line in wrap(comment(text), _WIDTH - 2))
+    title = comment(title)[:60].upper().rstrip(", ")
+    yield from ("SOL 109", "CEND", f"TITLE = {title}", *selections)
     yield from (
         line.text
         for line in sections.case_control

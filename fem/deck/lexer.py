@@ -94,7 +94,7 @@ class _Reader:
         self.card: RawCard | None = None
         self.open_markers: dict[str, RawCard] = {}
         self.rule: list[str] = []
-        self.unread = 0
+        self.unread: list[tuple[Line, str, str]] = []
 
     def read(self, lines: Iterable[Line]) -> Bulk:
         after_end = 0
@@ -113,10 +113,20 @@ class _Reader:
             self.take(line, text.upper())
         if after_end:
             self.bulk.notices.append(f"{after_end} lines after ENDDATA are not read")
-        if self.unread > _MOST_UNREAD:
-            more = self.unread - _MOST_UNREAD
-            self.bulk.problems.append(f"... and {more} more lines cannot be read")
+        self.tell_unread()
         return self.bulk
+
+    def tell_unread(self) -> None:
+        """Lines that are none; those of a file without any card are not shown."""
+        decks = {card.file for card in self.bulk.cards}
+        told = [unread for unread in self.unread if unread[0].file in decks]
+        for line, text, what in told[:_MOST_UNREAD]:
+            self.problem(line, f"{what}: {text.strip()[:60]}")
+        if more := len(told[_MOST_UNREAD:]):
+            self.bulk.problems.append(f"... and {more} more lines cannot be read")
+        for file in dict.fromkeys(x.file for x, _, _ in self.unread):
+            if file not in decks:
+                self.bulk.problems.append(f"{file}: holds no card")
 
     def problem(self, line: Line, text: str) -> None:
         self.bulk.problems.append(f"{line.file}:{line.number}: {text}")
@@ -177,9 +187,7 @@ class _Reader:
             self.unreadable(line, text, str(error))
 
     def unreadable(self, line: Line, text: str, what: str) -> None:
-        self.unread += 1
-        if self.unread <= _MOST_UNREAD:
-            self.problem(line, f"{what}: {text.strip()[:60]}")
+        self.unread.append((line, text, what))
 
 
 def split_line(text: str) -> tuple[str, list[str], str, bool]:

@@ -1,6 +1,15 @@
-"""Lines of a deck with all its INCLUDE files, each with the place it comes from."""
+"""Lines of a deck with all its INCLUDE files, each with the place it comes from.
+
+A deck of other people must not read what its user can read: INCLUDE reaches the folder
+of the deck, all below it, and folders that the user adds (`--include-path`,
+`airframe.include_paths`); `--trust` lifts that. Links count where they lead. Depth,
+number and size of files are limited.
+"""
 
 import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import NamedTuple
@@ -8,6 +17,47 @@ from typing import NamedTuple
 from fem.errors import InputError
 
 _LONGEST_PATH = 20  # lines over which the path of an INCLUDE may be split
+
+
+_DEEPEST = 20  # INCLUDEs within each other
+_MOST_FILES = 2_000
+_MOST_BYTES = 4_000_000_000  # of all files; a deck of ten million grids has less
+_LONGEST_LINE = 10_000  # characters; a path on one line may be long
+
+
+@dataclass(frozen=True)
+class Reach:
+    """What INCLUDE may read beside the folder of the deck.
+
+    Attributes:
+        folders: that the user adds, searched too.
+        everything: no limits of place.
+    """
+
+    folders: tuple[Path, ...] = ()
+    everything: bool = False
+
+
+_reach: ContextVar[Reach] = ContextVar("reach", default=Reach())  # noqa: B039 (frozen)
+
+
+@contextmanager
+def include_reach(
+    folders: Sequence[Path] = (), *, trust: bool = False
+) -> Iterator[None]:
+    """Decks that are read within may include files of these folders.
+
+    Args:
+        folders: beside the deck's own.
+        trust: any file.
+    """
+    outer = _reach.get()
+    reach = Reach((*outer.folders, *folders), trust or outer.everything)
+    token = _reach.set(reach)
+    try:
+        yield
+    finally:
+        _reach.reset(token)
 
 
 class Line(NamedTuple):
@@ -29,13 +79,16 @@ class Source:
 
     lines: list[Line] = field(default_factory=list)
     notices: list[str] = field(default_factory=list)
+    files: int = 0
+    bytes: int = 0
 
 
 def read_source(path: Path) -> Source:
     """Read a deck and, in place, the files that it includes.
 
     Raises:
-        InputError: the deck is missing, a folder, binary, or includes itself.
+        InputError: the deck is missing, a folder, binary, includes itself or what
+            it may not.
     """
     source = Source()
     _append(source, path, str(path), path.parent, ())
@@ -48,7 +101,12 @@ def _append(
     resolved = path.resolve()
     if resolved in parents:
         raise InputError(f"{shown}: the file includes itself")
-    texts = _text(path, shown).split("\n")
+    if len(parents) > _DEEPEST:
+        raise InputError(f"{shown}: INCLUDE more than {_DEEPEST} deep")
+    source.files += 1
+    if source.files > _MOST_FILES:
+        raise InputError(f"{shown}: INCLUDE of more than {_MOST_FILES:,} files")
+    texts = _text(source, path, shown).split("\n")
     number = 0
     while number < len(texts):
         text = texts[number].expandtabs(8).rstrip()
@@ -59,11 +117,13 @@ def _append(
             continue
         start = number
         name, number = _included_name(texts, number)
-        found = _find(name, (path.parent, home, Path.cwd())) if name else None
+        folders = (path.parent, home, *_reach.get().folders, Path.cwd())
+        found = _find(name, folders) if name else None
         if found is None:
             source.lines.append(Line(text.strip(), shown, start, missing=True))
             continue
         file, how = found
+        _check_reach(file, home, f"{shown}:{start}")
         if how:
             source.notices.append(
                 f"{shown}:{start}: INCLUDE '{name}' is not there; {file}, {how}, "
@@ -72,8 +132,28 @@ def _append(
         _append(source, file, str(file), home, (*parents, resolved))
 
 
-def _text(path: Path, shown: str) -> str:
+def _check_reach(file: Path, home: Path, place: str) -> None:
+    """An INCLUDE stays where it may read."""
+    reach = _reach.get()
+    resolved = file.resolve()
+    allowed = [folder.resolve() for folder in (home, *reach.folders)]
+    if reach.everything or any(resolved.is_relative_to(a) for a in allowed):
+        return
+    raise InputError(
+        f"{place}: INCLUDE of {file}, outside the folder of the deck; if that is "
+        f"meant: --include-path {resolved.parent}, airframe.include_paths of a case, "
+        "or --trust"
+    )
+
+
+def _text(source: Source, path: Path, shown: str) -> str:
     try:
+        if path.exists() and not (path.is_file() or path.is_dir()):
+            raise InputError(f"{shown}: is a device, expected a file")
+        source.bytes += path.stat().st_size
+        if source.bytes > _MOST_BYTES:
+            size = f"{source.bytes / 1e9:,.1f} GB"
+            raise InputError(f"{shown}: the deck and its INCLUDEs have {size}")
         data = path.read_bytes()
     except FileNotFoundError:
         raise InputError(f"{shown}: no such file") from None
@@ -85,7 +165,12 @@ def _text(path: Path, shown: str) -> str:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         text = data.decode("latin-1")
-    return text.replace("\r\n", "\n").replace("\r", "\n")
+    text = text.replace("\r\n", "\n").replace("\r", "\n")
+    if len(text) > _LONGEST_LINE and (longest := max(map(len, text.split("\n")))) > (
+        _LONGEST_LINE
+    ):
+        raise InputError(f"{shown}: a line of {longest:,} characters")
+    return text
 
 
 def _included_name(texts: list[str], number: int) -> tuple[str, int]:

@@ -2,9 +2,14 @@
 
 import os
 import re
+import secrets
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+
+# Name of a temporary file: its process, digits that nobody can foresee.
+PART = re.compile(r"\..*\.(\d+)-[0-9a-f]{16}\.part[^.]*(?:\.\w+)?$")
+_LONGEST = 100  # characters of a stem
 
 # What HDF5 says of the system's error.
 _ERRNO = re.compile(r"errno = (\d+)")
@@ -21,7 +26,7 @@ def written_aside(path: Path) -> Iterator[Path]:
         OSError: names the file itself.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(f".{path.stem}.part{path.suffix}")
+    part = _reserved(path)
     try:
         yield part
         part.replace(path)
@@ -32,6 +37,19 @@ def written_aside(path: Path) -> Iterator[Path]:
         raise problem from None
     finally:
         part.unlink(missing_ok=True)
+
+
+def _reserved(path: Path) -> Path:
+    """A file of ours alone: nothing that lies there is opened or followed."""
+    number = f"{os.getpid()}-{secrets.token_hex(8)}"
+    part = path.with_name(f".{path.stem[:_LONGEST]}.{number}.part{path.suffix}")
+    flags = os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_NOFOLLOW", 0)
+    try:
+        os.close(os.open(part, flags, 0o666))
+    except OSError as error:
+        number = error.errno or 0
+        raise OSError(number, os.strerror(number), str(path)) from None
+    return part
 
 
 def write_aside(path: Path, write: Callable[[Path], object]) -> None:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from fem.deck.values import real as value_of
+from fem.files.escaping import comment
 
 Value = int | float | str | None
 
@@ -131,7 +132,7 @@ class Section:
 
     def comment(self, text: str) -> None:
         """Appends a comment line."""
-        self.lines.append(f"$ {text}")
+        self.lines.append(f"$ {comment(text)}")
 
 
 @dataclass
@@ -145,9 +146,14 @@ class DeckText:
 
     def text(self) -> str:
         """The whole deck."""
-        parts = [f"$ {self.title}", *self.executive, "CEND", *self.case_control]
+        parts = [
+            f"$ {comment(self.title)}",
+            *self.executive,
+            "CEND",
+            *self.case_control,
+        ]
         parts.append("BEGIN BULK")
         for section in self.sections:
             if section.lines:
-                parts += [RULE, f"$ {section.title}", RULE, *section.lines]
+                parts += [RULE, f"$ {comment(section.title)}", RULE, *section.lines]
         return "\n".join([*parts, "ENDDATA", ""])

@@ -80,7 +80,7 @@ def test_selections(text: str, kind: str, value: float) -> None:
         ("1.8288", "0", 5, ["scenario.sink_rate", "found 0", "greater than 0", "m/s"]),
         ("1.8288", "360", 5, ["found 360", "less than or equal to 10", "m/s"]),
         ("1.8288", "fast", 5, ["found 'fast'", "number"]),
-        ("1.8288", ".nan", 5, ["found nan", "finite"]),
+        ("1.8288", ".nan", 5, ["found .nan", "finite"]),
         ("model: con", "model: cone", 3, ["found 'cone'", "did you mean 'con'"]),
         (
             "model: con",
@@ -199,7 +199,7 @@ def test_bad_legs_give_one_message_with_line_field_found_and_expected(
             "found -1, expected",
         ),
         ("{translational_stiffness: 1}", "rotational_stiffness: missing"),
-        ("true", "found True, expected a mapping"),
+        ("true", "found true, expected a mapping"),
     ],
 )
 def test_bad_bushings_are_named(text: str, message: str) -> None:

@@ -267,11 +267,13 @@ def test_command_line_writes_what_is_asked_for(tmp_path):
     path = tmp_path / "model.bdf"
     path.write_text(DECK.format(sol=101, case=CASES[101]))
     assert _status([str(path), "--out", str(tmp_path / "a")]) == 0
-    assert {p.name for p in (tmp_path / "a").iterdir()} == {"model.h5", "model.op2"}
+    names = {p.name for p in (tmp_path / "a").iterdir()}
+    assert names == {".made-by", "model.h5", "model.op2"}
     assert sorted(read(tmp_path / "a" / "model.op2").displacements) == [3, 7]
     options = ["--out", str(tmp_path / "b"), "--no-op2", "--paraview"]
     assert _status([str(path), *options]) == 0
     assert {p.name for p in (tmp_path / "b").iterdir()} == {
+        ".made-by",
         "model.h5",
         "model_static_3.vtkhdf",
         "model_static_7.vtkhdf",
