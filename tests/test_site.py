@@ -13,6 +13,13 @@ LOADED = re.compile(
 )
 
 
+def test_navigation_has_every_page() -> None:
+    text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("nav:")[2]
+    named = set(re.findall(r"\w+\.md", text))
+    made = {"index.md", "contributing.md", "changes.md"}
+    assert named == made | {path.name for path in (ROOT / "docs").glob("*.md")}
+
+
 @pytest.mark.slow
 def test_site_builds_and_is_complete_in_itself(tmp_path: Path) -> None:
     pytest.importorskip("mkdocs")
