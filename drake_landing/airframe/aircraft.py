@@ -34,7 +34,8 @@ class Aircraft:
         units: of the deck; what `structure` gives is SI.
         notices: what the user should know.
         read: how the file becomes a deck; matrices come with all their digits.
-        steady: (f, 1) loads of steady flight at 1 g, as the case gives them.
+        steady: (f, 1) loads of steady flight at 1 g, as the case gives them, or of a
+            built-in model in a mass case; None: those of the parametric aircraft.
         check: raises where the structure is not as the case wants it: a mass case.
         parametric: who wrote the deck, where it is not the user's own.
     """
@@ -67,7 +68,7 @@ class Aircraft:
     @property
     def steady_load(self) -> Callable[[Structure], Float64] | None:
         """Loads of steady flight at 1 g from a structure, where they are known."""
-        if self.parametric is not None:
+        if self.steady is None and self.parametric is not None:
             return self.parametric.steady_load
         return self.steady
 

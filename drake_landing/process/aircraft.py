@@ -13,6 +13,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.case.schema import Airframe, Case, Matrices
+from drake_landing.case.steady import Steady
 from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from drake_landing.reduced.legs import with_read_legs
@@ -77,7 +78,20 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         parametric=model,
         read=_damped(read_deck, airframe.damping),
         check=_mass_check(airframe, gears),
+        steady=_steady_of_mass_case(airframe, gears, written.lift_nodes),
     )
+
+
+def _steady_of_mass_case(
+    airframe: Airframe, gears: tuple[LandingGear, ...], nodes: tuple[int, ...]
+) -> Callable[[Structure], Float64] | None:
+    """Of a built-in model: its own lift carries another mass, so that of its wing's
+    nodes, in balance with the mass case, takes its place.
+    """
+    if airframe.mass_case is None or not nodes:
+        return None
+    given, R_AB = Steady(nodes=nodes), rotation_AB(airframe.axes)
+    return lambda structure: steady_flight(structure, gears, given, R_AB)
 
 
 def _with_mass_case(airframe: Airframe, deck: Path, out: Path) -> Path:

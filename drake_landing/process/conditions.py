@@ -132,7 +132,21 @@ def _run(case: Case, out: Path, stages: Stages) -> ConditionsResult:
     load_pictures(result.balances, ground, out / "pictures")
     stages.end()
     notices = (*aircraft.notices, *map(case.places.named, remarks))
+    notices += _steady_notices(aircraft)
     return ConditionsResult(**{**vars(result), "notices": (*notices, *result.notices)})
+
+
+def _steady_notices(aircraft: Aircraft) -> tuple[str, ...]:
+    """What stresses and section loads of landing conditions are."""
+    if aircraft.steady_load is None:
+        return (
+            "landing conditions: stresses and section loads are increments to steady "
+            "flight, which is not known (airframe.steady)",
+        )
+    return (
+        "landing conditions: stresses contain steady flight at 1 g, section loads are "
+        "increments to it",
+    )
 
 
 def condition_figures(

@@ -118,3 +118,17 @@ def test_a_load_set_must_carry_the_weight(tmp_path):
     structure = aircraft.structure()
     with pytest.raises(InputError, match="carries 1 kN, expected the weight"):
         aircraft.steady_load(structure)
+
+
+@pytest.mark.parametrize("name", ["take_off", "landing", "light"])
+def test_mass_cases_of_the_reference_aircraft_fly_at_1_g(tmp_path, name):
+    path = HERE.parents[1] / "cases" / "d150_masses.yaml"
+    text = path.read_text().replace("mass_case: landing", f"mass_case: {name}")
+    aircraft = prepare_aircraft(parse_case(text), tmp_path)
+    structure = aircraft.structure()  # within 1 % of its target
+    load = aircraft.steady_load(structure)
+    rigid = structure.rigid_body
+    force = rigid.T @ load[:, 0]
+    inertia = rigid.T @ (structure.mass @ rigid)
+    motion = np.linalg.solve(inertia, force)
+    assert motion == pytest.approx([0, 0, 9.80665, 0, 0, 0], abs=1e-5)
