@@ -182,7 +182,8 @@ def _section_loads(result: "ProcessResult") -> Section:
             Block(svg=figures.section_envelopes(cuts, found.time, loads, worst)),
             Block(svg=figures.root_histories(cuts, found, result.practices)),
         ]
-    blocks.append(_section_table(result, [name for name, _ in shown]))
+    if shown:
+        blocks.append(_section_table(result, [name for name, _ in shown]))
     also = f" Left out: {'; '.join(left_out)}." if left_out else ""
     return Section(
         id="sections",
