@@ -66,7 +66,9 @@ def read_op2(path: Path) -> dict[Name, Table]:
                 found.setdefault((title, int(subcase)), made)
     for key, table in model.eigenvectors.items():
         subcase = key[0] if isinstance(key, tuple) else key
-        hertz = np.asarray(getattr(table, "mode_cycles", []), float)
+        # Some files hold the circular frequency where cycles belong.
+        square = np.asarray(getattr(table, "eigns", []), float)
+        hertz = np.sign(square) * np.sqrt(np.abs(square)) / (2.0 * np.pi)
         found.setdefault(("frequency", int(subcase)), _listed(hertz))
     return found
 

@@ -80,13 +80,13 @@ class Structure:
     def without_massless_motions(self) -> tuple[Structure, list[str]]:
         """The structure with motions that have neither stiffness nor mass held.
 
-        They take no part in any vibration. With PARAM,AUTOSPC,NO nothing is held.
+        They take no part in any vibration, whatever PARAM,AUTOSPC says.
 
         Returns:
             The structure, and a notice that names the freedoms; itself and none, where
             there are no such motions.
         """
-        found = [] if self.autospc is None else self.mechanisms(dynamic=True)
+        found = self.mechanisms(dynamic=True)
         if not found:
             return self, []
         motions = np.concatenate([m.motions for m in found], axis=1)
@@ -98,7 +98,7 @@ class Structure:
         text = f"{count} motion{'s' if count > 1 else ''} without stiffness and mass"
         return (
             Structure(self.deck, self.subcase, free=free),
-            [f"{text} held at {names} (AUTOSPC)"],
+            [f"{text} held at {names}"],
         )
 
     # -- the model ------------------------------------------------------------------

@@ -1,0 +1,77 @@
+"""The suite of decks tells right, wrong and refused apart."""
+
+from pathlib import Path
+
+import pytest
+
+import fem
+from benchmarks.suite.__main__ import summary
+from benchmarks.suite.compare import differences
+from benchmarks.suite.decks import judge, pairs
+from benchmarks.suite.tables import read_f06, read_op2
+from fem.files.op2 import write_op2
+from fem.model.structure import Structure
+from fem.solution import run_deck
+
+DECK = """\
+SOL 103
+CEND
+METHOD = 1
+SPC = 1
+BEGIN BULK
+EIGRL,1,,,3
+GRID,1
+GRID,2,,1.
+GRID,3,,2.
+CBAR,1,1,1,2,0.,1.,0.
+CBAR,2,1,2,3,0.,1.,0.
+PBAR,1,1,1.-4,1.-9,2.-9,1.-9
+MAT1,1,7.+10,,.3,2700.
+SPC1,1,123456,1
+ENDDATA
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Three decks, each with the OP2 file of the first."""
+    for name, text in (
+        ("a_same.bdf", DECK),
+        ("b_softer.bdf", DECK.replace("7.+10", "5.+10")),
+        ("c_refused.bdf", DECK.replace("SOL 103", "SOL 145")),
+    ):
+        (tmp_path / name).write_text(text)
+    deck = fem.read_deck(tmp_path / "a_same.bdf")
+    results = run_deck(deck, tmp_path / "out" / "a.h5")
+    op2 = tmp_path / "a_same.op2"
+    write_op2(results, Structure(deck), op2)
+    for name in ("b_softer.op2", "c_refused.op2"):
+        (tmp_path / name).write_bytes(op2.read_bytes())
+    (tmp_path / "d_alone.bdf").write_text(DECK)
+    return tmp_path
+
+
+def test_decks_are_judged_by_the_files_beside_them(folder):
+    found = [judge(deck, file, folder, 60.0) for deck, file in pairs(folder)]
+    assert [outcome.verdict for outcome in found] == ["right", "wrong", "refused"]
+    assert found[1].beyond["frequency"] == pytest.approx(1 - (5 / 7) ** 0.5, rel=1e-5)
+    text = summary(found)
+    assert "right 1, wrong 1" in text
+    assert "1 x refused (1 by this alone): SOL N is not supported" in text
+
+
+def test_frequencies_of_a_listing_are_read(folder):
+    hertz = read_op2(folder / "a_same.op2")["frequency", 1].values.ravel()
+    rows = "\n".join(
+        f"{k:9d}{k:10d}{w**2 * 39.47841760435743:20.6E}{w * 6.283185307:20.6E}"
+        f"{w:20.6E}{1.0:20.6E}{w**2:20.6E}"
+        for k, w in enumerate(hertz, start=1)
+    )
+    (folder / "a_same.f06").write_text(
+        "1    TITLE\n0                    SUBCASE 1\n"
+        f"               R E A L   E I G E N V A L U E S\n{rows}\n1\n"
+    )
+    theirs = read_f06(folder / "a_same.f06")
+    (found,) = differences(read_op2(folder / "a_same.op2"), theirs)
+    assert found.name == "frequency"
+    assert found.value < 1e-6
