@@ -70,7 +70,7 @@ SOLUTION_REFUSED = {
     "NONLINEAR": "there are no NOLIN loads",
     "RSDAMP": "there is no damping of residual structures",
     "TSTRU": "temperatures are given by TEMP cards",
-    "SUPER": "there is one structure, without superelements",
+    "SUPER": "superelements are solved as one model; expected SUPER = ALL",
 }
 # Requests, printing and what belongs to other disciplines: no answer of the
 # solutions here depends on them. They are named in a notice.

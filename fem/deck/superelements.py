@@ -16,17 +16,19 @@ import numpy as np
 import pandas as pd
 from scipy.spatial import cKDTree
 
-from fem.arrays import Float64, Int64
+from fem.arrays import Float64
 from fem.deck.deck import Deck
-from fem.deck.records import TABLES, targets_of
+from fem.deck.superelement_ids import (
+    Tables,
+    columns_with_ids,
+    ids_of_kind,
+    offsets,
+    renamed,
+    shifts_said,
+)
 from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 
-Tables = dict[str, pd.DataFrame]
-
-# Kinds of ids, by the name of the column that has them; others are shared by all parts.
-_KINDS = {"id": "point", "cid": "frame", "eid": "element", "pid": "property"}
-_KINDS |= {"mid": "material"}
 # What serves the reduction of a part and changes nothing in the whole.
 _OF_REDUCTION = ("ASET", "QSET", "OMIT", "SEBULK", "SECONCT", "SELOC", "EIGRL")
 # They act on all masses of a model, there on those of their part.
@@ -61,11 +63,11 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
     for number, part in sorted(parts.items()):
         own = {k: v for k, v in part.cards.items() if k not in _OF_REDUCTION}
         frame = _placing(deck, part, number, problems)
-        maps[number] = _offsets(tables, own, number)
-        basic = 1 + max(_ids(own, "frame"), default=0) + maps[number]["frame"]
-        basic = max(basic, *(1 + i for t in tables for i in _ids(t, "frame")), 1)
-        tables.append(_renamed(own, maps[number], frame, basic))
-        notices += _said(number, maps[number])
+        maps[number] = offsets(tables, own, number)
+        basic = 1 + max(ids_of_kind(own, "frame"), default=0) + maps[number]["frame"]
+        basic = max(basic, *(1 + i for t in tables for i in ids_of_kind(t, "frame")), 1)
+        tables.append(renamed(own, maps[number], frame, basic))
+        notices += shifts_said(number, maps[number])
         given[number] = _points(part)
     cards = _stacked(tables, problems)
     if problems:
@@ -164,115 +166,6 @@ def _triad(xyz: Float64) -> Float64:
         return np.full((3, 3), np.nan)
     x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
     return np.stack([x, np.cross(z, x), z], axis=1)
-
-
-# -- ids ------------------------------------------------------------------------------
-
-
-def _key(name: str) -> tuple[str, str]:
-    """Column with the ids of a table and their kind; "" where they are shared."""
-    column = next(iter(TABLES[name].columns))
-    return column, _KINDS.get(column, "") if TABLES[
-        name
-    ].ids or name == "PLOTEL" else ""
-
-
-def _ids(tables: Mapping[str, pd.DataFrame], kind: str) -> set[int]:
-    found: set[int] = set()
-    for name, table in tables.items():
-        column, own = _key(name)
-        if own == kind:
-            found.update(table[column].tolist())
-    return found
-
-
-def _offsets(whole: list[Tables], part: Tables, number: int) -> dict[str, int]:
-    """What is added to the ids of a part, by kind; 0 where they are free."""
-    offsets = {}
-    for kind in sorted(set(_KINDS.values())):
-        taken: set[int] = set().union(*(_ids(tables, kind) for tables in whole))
-        own = _ids(part, kind)
-        step = 10 ** len(str(max(taken | own, default=1)))
-        shift = 0 if taken.isdisjoint(own) else number * step
-        while not taken.isdisjoint({i + shift for i in own}):
-            shift += step
-        offsets[kind] = shift
-    return offsets
-
-
-def _said(number: int, offsets: Mapping[str, int]) -> list[str]:
-    shifted = [f"{kind} + {shift}" for kind, shift in offsets.items() if shift]
-    if not shifted:
-        return []
-    return [f"superelement {number}: ids in the results are {', '.join(shifted)}"]
-
-
-def _renamed(
-    part: Tables,
-    offsets: Mapping[str, int],
-    frame: tuple[Float64, Float64] | None,
-    basic: int,
-) -> Tables:
-    """The tables of a part with the ids that they have in the whole.
-
-    Args:
-        part: its tables.
-        offsets: added to its ids, by kind.
-        frame: axes and origin of its basic frame, None where that is the main one.
-        basic: the id that its basic frame gets.
-    """
-    basic = 0 if frame is None else basic
-    tables = {}
-    for name, table in part.items():
-        table = table.copy()
-        for column, kind in _columns_with_ids(name):
-            if column in table:
-                ground = basic if kind == "frame" else 0
-                table[column] = _shifted(table[column], offsets[kind], ground)
-        tables[name] = table
-    if frame is not None:
-        tables["CORD"] = _with_basic(tables["CORD"], basic, *frame)
-    return tables
-
-
-def _columns_with_ids(name: str) -> Iterator[tuple[str, str]]:
-    """Columns of a table that hold ids, with their kinds."""
-    key, own = _key(name)
-    if own:
-        yield key, own
-    if name == "CORD":
-        yield from (("rid", "frame"), ("g1", "point"), ("g2", "point"), ("g3", "point"))
-    for column, item in TABLES[name].columns.items():
-        if item.targets and (column != key or not own):
-            target = targets_of(item.targets[0])[0]
-            kind = "frame" if target == "CORD" else _key(target)[1]
-            if kind:
-                yield column, kind
-
-
-def _shifted(values: pd.Series, shift: int, ground: int) -> pd.Series:
-    """Ids moved; 0 becomes `ground`, what is below is no id."""
-
-    def moved(ids: Int64) -> Int64:
-        return np.where(ids > 0, ids + shift, np.where(ids == 0, ground, ids))
-
-    if values.dtype != object:
-        return pd.Series(moved(values.to_numpy(np.int64)), values.index)
-    column = np.empty(len(values), dtype=object)
-    for row, value in enumerate(values):
-        column[row] = moved(np.asarray(value, dtype=np.int64))
-    return pd.Series(column, values.index)
-
-
-def _with_basic(
-    table: pd.DataFrame, cid: int, axes: Float64, origin: Float64
-) -> pd.DataFrame:
-    """Coordinate systems of a part with the part's own basic frame."""
-    row = dict.fromkeys(table.columns, 0)
-    points = {"a": origin, "b": origin + axes[:, 2], "c": origin + axes[:, 0]}
-    row |= {f"{p}{k + 1}": float(x[k]) for p, x in points.items() for k in range(3)}
-    row |= {"cid": cid, "type": "R", "form": 2, "file": "", "rid": 0}
-    return pd.concat([table, pd.DataFrame([row])], ignore_index=True)
 
 
 # -- together -------------------------------------------------------------------------
@@ -398,7 +291,7 @@ def _merged(cards: Tables, joined: Mapping[int, int], problems: list[str]) -> Ta
             digits = {*cards["GRID"]["ps"][at[point]]}
             row = grid.index[grid["id"] == other][0]
             grid.at[row, "ps"] = "".join(sorted(digits | {*grid.at[row, "ps"]}))
-    merged["RBE2"] = _with_ties(merged["RBE2"], tied, _ids(merged, "element"))
+    merged["RBE2"] = _with_ties(merged["RBE2"], tied, ids_of_kind(merged, "element"))
     return merged
 
 
@@ -409,7 +302,7 @@ def _with_points(
     if not replaced or name in ("GRID", "SPOINT"):
         return table
     table = table.copy()
-    for column, kind in _columns_with_ids(name):
+    for column, kind in columns_with_ids(name):
         if kind != "point" or column not in table:
             continue
         values = table[column]
