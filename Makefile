@@ -11,7 +11,7 @@ READY := $(VENV)/.ready
 export OPENBLAS_NUM_THREADS := 1
 export MPLBACKEND := Agg
 
-.PHONY: demo test check format slow verify docs bench python clean
+.PHONY: demo fuzz test check format slow verify docs bench python clean
 
 demo: $(READY)
 	$(BIN)/drake-landing demo
@@ -31,6 +31,9 @@ format: $(READY)
 
 slow: $(READY)
 	$(BIN)/python -m pytest -m slow
+
+fuzz: $(READY)
+	$(BIN)/python -m benchmarks.fuzz 1500
 
 verify: $(READY)
 	$(BIN)/python -m benchmarks.verification

@@ -19,6 +19,7 @@ from drake_landing.gears.parameters import (
     shock_absorber_parameters,
     tire_parameters,
 )
+from fem.errors import InputError
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_law import StrutLaw
 from systems.tire.tire_law import TireLaw
@@ -72,10 +73,17 @@ def drop_pulse(
     h = step / inner
     x = [0.0, 0.0, sink_rate, sink_rate, 0.0]
     rows = [law.loads(x)]
-    for _ in range(count):
-        for _ in range(inner):
-            x = _runge_kutta(law.rate, x, h)
-        rows.append(law.loads(x))
+    with np.errstate(over="ignore", invalid="ignore"):  # looked at below
+        for _ in range(count):
+            for _ in range(inner):
+                x = _runge_kutta(law.rate, x, h)
+            rows.append(law.loads(x))
+            if not np.isfinite(rows[-1]).all():
+                raise InputError(
+                    f"gears.{gear.name}: dropped by itself, its forces pass all bounds "
+                    f"after {step * (len(rows) - 1):.3g} s; expected softer damping or "
+                    "stiffness of its shock absorber or tire"
+                )
     vertical, drag, stroke = np.array(rows).T
     return DropPulse(
         time=step * np.arange(count + 1), vertical=vertical, drag=drag, stroke=stroke
