@@ -64,6 +64,12 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         own = {k: v for k, v in part.cards.items() if k not in _OF_REDUCTION}
         frame = _placing(deck, part, number, problems)
         maps[number] = offsets(tables, own, number)
+        shifted = maps[number]["element"] or maps[number]["property"]
+        if shifted and (len(own["NSM"]) or len(own["NSML"])):
+            problems.append(
+                f"superelement {number}: NSM with elements or properties whose ids are "
+                "in use elsewhere is not supported; expected ids of its own"
+            )
         basic = 1 + max(ids_of_kind(own, "frame"), default=0) + maps[number]["frame"]
         basic = max(basic, *(1 + i for t in tables for i in ids_of_kind(t, "frame")), 1)
         tables.append(renamed(own, maps[number], frame, basic))

@@ -130,3 +130,11 @@ def test_joined_grids_with_other_axes_are_tied(tmp_path):
     turned = "CORD2R,4,,0.,0.,0.,0.,1.,1.,+\n+,1.,1.,0.\n"
     part = PART.replace("GRID,1,,1.,0.,0.\n", turned + "GRID,1,,1.,0.,0.,4\n")
     agree(tmp_path, RESIDUAL + BEGIN + part, (12, 13))
+
+
+def test_masses_on_ids_that_are_in_use_are_refused(tmp_path):
+    path = tmp_path / "model.bdf"
+    text = HEAD + RESIDUAL + BEGIN + PART + "NSM1,4,PBAR,1.,7\n"
+    path.write_text(text + "ENDDATA\n")
+    with pytest.raises(InputError, match="expected ids of its own"):
+        read_deck(path)
