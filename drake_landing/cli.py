@@ -26,7 +26,6 @@ app = typer.Typer(
     help="Aircraft landing loads: multibody simulation of the touchdown in Drake, then "
     "the direct transient response of the full Nastran model.",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
 )
 
@@ -90,13 +89,38 @@ def run(
     ] = False,
     include_path: Reach = None,
     trust: Trust = False,
+    pdf: Annotated[
+        bool, typer.Option("--pdf", help="also report.pdf, by Chromium or Chrome")
+    ] = False,
 ) -> None:
     """The whole process for a case: landing, direct transient, comparison, report."""
     from drake_landing.case.reading import load_case
     from fem.deck.source import include_reach
 
+    if pdf:
+        from drake_landing.report.pdf import browser
+
+        browser()  # said before the work, not after it
     with include_reach(include_path or [], trust=trust):
-        _run(load_case(case), out, practices=practices)
+        _run(load_case(case), out, practices=practices, pdf=pdf)
+
+
+@app.command()
+def new(
+    case: Annotated[Path, typer.Argument(metavar="CASE.yaml", help="file to write")],
+    deck: Annotated[Path, typer.Option("--deck", help="Nastran deck of the airframe")],
+) -> None:
+    """Writes a commented case for a deck: units, axes, points, gears to begin with."""
+    from drake_landing.process.new_case import new_case
+    from fem.errors import InputError
+    from fem.files.aside import write_aside
+
+    _expect_deck(deck)
+    if case.exists():
+        raise InputError(f"{case}: is there already, and is left as it is")
+    text = new_case(deck, case)
+    write_aside(case, lambda to: to.write_text(text, encoding="utf-8") and None)
+    print(f"{case}: replace what is marked GUESS, then drake-landing check {case}")
 
 
 @app.command()
@@ -373,7 +397,9 @@ def _default_folder(case: "Case") -> Path:
     return Path("out", case.name)
 
 
-def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
+def _run(
+    case: "Case", out: Path | None, *, practices: bool = False, pdf: bool = False
+) -> None:
     from drake_landing.process.run import run_case
     from drake_landing.progress import reporter
     from fem.files.folders import claim
@@ -381,6 +407,12 @@ def _run(case: "Case", out: Path | None, *, practices: bool = False) -> None:
     folder = claim(out or _default_folder(case), f"run {case.name}")
     with reporter() as progress:
         result = run_case(case, folder, progress, practices=practices)
+    if pdf:
+        from drake_landing.report.pdf import write_pdf
+        from drake_landing.results.readme import write_readme
+
+        write_pdf(folder / "report.html", folder / "report.pdf")
+        write_readme(result, folder)
     print(_summary(result, folder))
 
 

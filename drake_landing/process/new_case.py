@@ -1,0 +1,231 @@
+"""A commented case for a deck, so that nobody starts from an empty file.
+
+What the deck tells is filled in: units by the stiffness of its materials, axes by its
+symmetry and its fin, mass, points worth monitoring, grids near where gears usually are.
+Gears have values of the right size for the mass; each line that is a guess says so.
+"""
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from fem.arrays import Float64, Int64
+from fem.deck.deck import Deck
+from fem.deck.reader import read_deck
+from fem.deck.units import in_si, units_of
+from fem.errors import InputError
+from fem.model.structure import Structure
+
+# Young's modulus of what aircraft are made of, from plastics to steel, in each system.
+_MODULI = {"SI": (1e9, 1e12), "mm-t-N": (1e3, 1e6), "in-lbf": (1.5e5, 1e8)}
+_METALS = {"SI": 7e10, "mm-t-N": 7e4, "in-lbf": 1e7}
+_GRAVITY = 9.81  # m/s²
+_NOSE_SHARE = 0.1  # of the weight
+_STROKE, _STATIC = 0.35, 0.7  # m; share of the stroke at rest
+_CANDIDATES = 4
+
+
+@dataclass(frozen=True)
+class _Layout:
+    """A deck as an aircraft: axes A are aft, starboard, up (m)."""
+
+    forward: str
+    up: str
+    ids: Int64
+    p: Float64  # (g, 3) in A
+    R_BA: Float64
+    mass: float
+    cg: Float64  # (3,) in A
+
+    def nearest(self, target: Sequence[float], count: int = 1) -> list[int]:
+        """Rows of the grids next to a point in A."""
+        away = np.linalg.norm(self.p - np.asarray(target), axis=1)
+        return np.argsort(away, kind="stable")[:count].tolist()
+
+
+def new_case(deck: Path, case: Path) -> str:
+    """The text of a case for a deck.
+
+    Args:
+        deck: bulk-data file.
+        case: the file that the text is for; the deck's path is relative to it.
+
+    Raises:
+        InputError: the deck cannot be read, or has no mass.
+    """
+    raw = read_deck(deck)
+    units = guess_units(raw)
+    structure = Structure.from_deck(in_si(raw, units_of(units)))
+    layout = _layout(structure)
+    return "\n".join(_lines(deck, case, units, layout)) + "\n"
+
+
+def guess_units(deck: Deck) -> str:
+    """The system in which the median modulus of MAT1 is next to that of a metal.
+
+    Without MAT1 the largest extent of the grids decides: metres below 150.
+    """
+    moduli = deck.cards["MAT1"]["e"].to_numpy(float)
+    moduli = moduli[moduli > 0.0]
+    if len(moduli):
+        e = float(np.median(moduli))
+        fits = [n for n, (low, high) in _MODULI.items() if low <= e <= high]
+        fits = fits or list(_MODULI)
+        return min(fits, key=lambda n: abs(np.log(e / _METALS[n])))
+    p = deck.cards["GRID"][["x1", "x2", "x3"]].to_numpy(float)
+    return "SI" if np.ptp(p, axis=0).max() < 150.0 else "mm-t-N"
+
+
+def _layout(structure: Structure) -> _Layout:
+    p, weight = structure.points.xyz, structure.weight
+    if weight.total <= 0.0:
+        raise InputError("the deck has no mass, expected that of an airframe")
+    lateral = _lateral(p)
+    rest = [a for a in range(3) if a != lateral]
+    spans = np.ptp(p[:, rest], axis=0)
+    along, up = rest[int(spans.argmax())], rest[int(spans.argmin())]
+    # The fin stands up at the rear: what is highest is aft.
+    height = p[:, up] - np.median(p[:, up])
+    high = height >= 0.9 * height.max(initial=0.0)
+    aft = 1.0 if p[high, along].mean() >= p[:, along].mean() else -1.0
+    x, z = np.zeros(3), np.zeros(3)
+    x[along], z[up] = aft, 1.0
+    R_BA = np.stack([x, np.cross(z, x), z], axis=1)
+    return _Layout(
+        forward=("-" if aft > 0.0 else "") + "xyz"[along],
+        up="xyz"[up],
+        ids=structure.points.grid_id,
+        p=p @ R_BA,
+        R_BA=R_BA,
+        mass=float(weight.total),
+        cg=np.asarray(weight.center) @ R_BA,
+    )
+
+
+def _lateral(p: Float64) -> int:
+    """The axis across which the grids are most nearly their own mirror image."""
+    spread = np.ptp(p, axis=0)
+    skewed = np.abs(p.max(axis=0) + p.min(axis=0)) / np.maximum(spread, 1e-9)
+    return int((skewed + 10.0 * (spread < 1e-3 * spread.max())).argmin())
+
+
+def _lines(deck: Path, case: Path, units: str, a: _Layout) -> Iterator[str]:
+    folder = case.resolve().parent
+    shown = os.path.relpath(deck.resolve(), folder)
+    name = "".join(c if c.isalnum() else "_" for c in deck.stem.lower()).strip("_")
+    x, y, z = _in_B(a, a.cg)
+    yield f"# A landing of {deck.name}: {a.mass:,.0f} kg without gears, its"
+    yield f"# centre of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m. All is SI,"
+    yield "# in the frame of the deck. Replace or confirm what is marked GUESS."
+    yield "# Next: drake-landing check on this file says what fits and what does not;"
+    yield "# docs/gears.md describes gears, docs/presets.md the conditions of CS-25."
+    yield f"name: {name or 'landing'}"
+    yield "airframe:"
+    yield f"  deck: {shown!r}"
+    yield f"  units: {units} # GUESS by the moduli of its materials: SI, mm-t-N, in-lbf"
+    yield f"  axes: {{ forward: {a.forward}, up: {a.up} }} # GUESS by symmetry and fin"
+    yield "  select: below 50 Hz # modes of the multibody model"
+    yield "  monitoring: # points whose accelerations are compared: name and grid"
+    for point, row in _points(a).items():
+        yield f"    {point}: {a.ids[row]} # {_at(a, row)}"
+    yield "scenario:"
+    yield "  sink_rate: 3.05 # m/s; or preset: level, tail_down, ... (docs/presets.md)"
+    yield "  forward_speed: 70 # m/s, GUESS"
+    yield "gears: # GUESS throughout: of the size for this mass, not of this aircraft"
+    yield from _gears(a)
+
+
+def _points(a: _Layout) -> dict[str, int]:
+    """Point -> row: extremities and the grid next to the centre of gravity."""
+    found = {
+        "nose": int(a.p[:, 0].argmin()),
+        "centre": a.nearest(a.cg)[0],
+        "tail": int(a.p[:, 0].argmax()),
+        "tip_starboard": int(a.p[:, 1].argmax()),
+        "tip_port": int(a.p[:, 1].argmin()),
+    }
+    first: dict[int, str] = {}
+    for name, row in found.items():
+        first.setdefault(row, name)
+    return {name: row for row, name in first.items()}
+
+
+def _gears(a: _Layout) -> Iterator[str]:
+    """Nose gear ahead of, main gears a little behind the centre of gravity."""
+    length = float(np.ptp(a.p[:, 0]))
+    half = float(a.p[:, 1].max())
+    nose_x = a.cg[0] - min(0.35 * length, 0.8 * (a.cg[0] - a.p[:, 0].min()))
+    ahead = a.cg[0] - nose_x
+    main_x = a.cg[0] + ahead * _NOSE_SHARE / (1.0 - _NOSE_SHARE)
+    ground = a.p[:, 2].min() - 1.0 if len(a.p) else 0.0
+    track = min(0.18 * half, 0.25 * length)
+    weight = a.mass * _GRAVITY
+    places = {
+        "nose": ((nose_x, 0.0), _NOSE_SHARE * weight),
+        "main_starboard": ((main_x, track), 0.5 * (1.0 - _NOSE_SHARE) * weight),
+        "main_port": ((main_x, -track), 0.5 * (1.0 - _NOSE_SHARE) * weight),
+    }
+    low = float(np.median(a.p[:, 2]))
+    for name, ((x, y), load) in places.items():
+        rows = a.nearest((x, y, low), _CANDIDATES)
+        others = ", ".join(f"{a.ids[r]} ({_at(a, r)})" for r in rows[1:])
+        yield f"  - name: {name}"
+        yield f"    attachment_node: {a.ids[rows[0]]} # {_at(a, rows[0])}"
+        yield f"    # other grids nearby: {others}"
+        node = a.p[rows[0]]
+        yield from _gear(a, node, ground, load)
+
+
+def _gear(a: _Layout, node: Float64, ground: float, load: float) -> Iterator[str]:
+    """A telescopic twin for a static load (N)."""
+    radius = float(np.clip(0.20 * (load / 1e4) ** 0.33, 0.15, 0.6))
+    axle = np.array([node[0], node[1], ground + radius])
+    gap = node[2] - axle[2]
+    mass = 0.006 * load  # kg: gears weigh some 4 % of what they carry (from memory)
+    fitting, piston, wheel = 0.4 * mass, 0.25 * mass, 0.12 * mass
+    inertia = [
+        round(0.05 * m * max(gap, 0.3) ** 2 + 0.01, 3) for m in (fitting, piston)
+    ]
+    rest = 1.0 - _STATIC * _STROKE / (_STROKE * 1.15)
+    offset = round(0.35 * radius, 3)
+    yield f"    axle: {_vector(a, axle)} # m, gear extended"
+    yield f"    wheel_offsets: [{-offset}, {offset}] # m from the middle of the axle"
+    for part, m, share, i in (
+        ("fitting", fitting, 0.7, inertia[0]),
+        ("piston", piston, 0.2, inertia[1]),
+    ):
+        at = axle + np.array([0.0, 0.0, share * gap])
+        cg, j = _vector(a, at), f"[{i}, {i}, {i}] }} # kg, m, kg m²"
+        yield f"    {part}: {{ mass: {_number(m)}, cg: {cg}, inertia: {j}"
+    m, spin = _number(wheel), _number(0.5 * wheel * radius**2)
+    yield f"    wheel: {{ mass: {m}, spin_inertia: {spin} }} # kg, kg m²"
+    stiffness = _number(0.5 * load / (0.2 * radius))
+    precharge = _number(load * rest**1.4)
+    yield f"    tyre: {{ radius: {radius:.3f}, stiffness: {stiffness} }} # m, N/m"
+    yield "    shock_absorber:"
+    yield f"      stroke: {_STROKE} # m"
+    yield f"      gas_length: {_STROKE * 1.15:.4g} # m"
+    yield f"      precharge_force: {precharge} # N; {load:,.0f} N at rest"
+    yield f"      compression_damping: {_number(0.12 * load)} # N s²/m²"
+    yield f"      rebound_damping: {_number(0.6 * load)} # N s²/m²"
+
+
+def _in_B(a: _Layout, p: Float64) -> Float64:
+    return a.R_BA @ p
+
+
+def _at(a: _Layout, row: int) -> str:
+    x, y, z = _in_B(a, a.p[row])
+    return f"at {x:z.2f}, {y:z.2f}, {z:z.2f} m"
+
+
+def _vector(a: _Layout, p: Float64) -> str:
+    return "[" + ", ".join(f"{v:z.3f}" for v in _in_B(a, p)) + "]"
+
+
+def _number(value: float) -> str:
+    """Four digits, without the exponents that YAML takes for text."""
+    return f"{value:.4g}" if 1e-4 < value < 1e4 else f"{value:.0f}"

@@ -1,0 +1,63 @@
+"""A case written for a deck is one that reads, and that knows what the deck tells."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.case.axes import rotation_AB
+from drake_landing.case.reading import load_case
+from drake_landing.case.schema import Case
+from drake_landing.cli import app, guarded
+from drake_landing.process.aircraft import prepare_aircraft
+from tests.drake_landing.one_aircraft import FRAMES, MM_T_N, SI, WEIGHTS, case_of
+
+HERE = Path(__file__).parents[1]
+COMMUTER = HERE.parents[1] / "cases" / "commuter" / "commuter.bdf"
+
+
+def written(folder: Path, deck: Path) -> Case:
+    path = folder / "new.yaml"
+    assert guarded(app, ["new", str(path), "--deck", str(deck)]) == 0
+    return load_case(path)
+
+
+def test_a_foreign_deck_is_understood(tmp_path: Path) -> None:
+    case = written(tmp_path, COMMUTER)
+    assert case.airframe.units == "mm-t-N"
+    assert (case.airframe.axes.forward, case.airframe.axes.up) == ("x", "z")
+    assert not isinstance(case.gears, str)
+    # Where its own case hangs the main gears.
+    assert [g.attachment_node for g in case.gears[1:]] == [270, 370]
+    assert case.airframe.monitoring["tip_starboard"] == 209
+
+
+@pytest.mark.parametrize("forward", FRAMES)
+@pytest.mark.parametrize("form", [SI, MM_T_N, WEIGHTS])
+def test_units_and_frames_do_not_matter(tmp_path: Path, form, forward: str) -> None:
+    changed = type(form)(**{**vars(form), "forward": forward})
+    deck = case_of(tmp_path, changed).airframe.deck
+    assert deck is not None
+    case = written(tmp_path, deck)
+    assert case.airframe.units == form.units
+    assert (case.airframe.axes.forward, case.airframe.axes.up) == (forward, "z")
+    aircraft = prepare_aircraft(case, tmp_path)
+    structure = aircraft.structure()
+    R_AB = rotation_AB(case.airframe.axes)
+    check_gears(structure, aircraft, R_AB)  # refuses what cannot land
+    # Wheels stand on both sides of the centre of gravity, at one height.
+    axles = np.array([gear.axles[0] for gear in aircraft.gears]) @ R_AB.T
+    lowest = axles[:, 2] - [gear.tyre.radius for gear in aircraft.gears]
+    assert np.ptp(lowest) < 2e-3
+    assert axles[0, 0] < (R_AB @ structure.weight.center)[0] < axles[1, 0] + 0.5
+
+
+def test_a_case_that_is_there_is_left(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "new.yaml"
+    path.write_text("mine")
+    assert guarded(app, ["new", str(path), "--deck", str(COMMUTER)]) == 2
+    assert path.read_text() == "mine"
+    assert "is there already" in capsys.readouterr().err
