@@ -459,6 +459,8 @@ def _status(
     except (KeyboardInterrupt, typer.Abort):
         return _INTERRUPTED
     except (Exception, SystemExit) as error:  # Drake's checks exit
+        if isinstance(error, SystemExit) and error.code == 0:  # shell completion
+            return 0
         return _INTERRUPTED if interrupts else _failure(error)
     return result if isinstance(result, int) else 0
 

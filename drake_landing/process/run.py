@@ -297,6 +297,7 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
     from drake_landing.parts.gallery import stress_pictures
     from drake_landing.replay.record import write_replay
     from drake_landing.report import write_report
+    from drake_landing.report.histories import write_histories
 
     stages = result.stages
     stages.begin("writing the result files")
@@ -316,6 +317,8 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
             out, structure, watch.stresses, parts, result.case.parts, R_AB
         )
     stages.begin("writing the report")
+    with _at_most_lost("histories.html, the interactive histories,", lost):
+        write_histories(out / "histories.html", result)
     result = replace(result, notices=(*result.notices, *lost))
     write_report(out / "report.html", result, pictures, unable)
     stages.end()

@@ -55,6 +55,7 @@ if TYPE_CHECKING:
 # What a run writes.
 FILES = (
     "report.html",
+    "histories.html",
     "landing.html",
     "results.h5",
     "landing_sol109.bdf",

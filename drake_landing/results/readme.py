@@ -13,6 +13,7 @@ README = "README.txt"
 _LINES = {
     "report.html": "the report: verdict, loads, stresses, case, how it was made; "
     "prints",
+    "histories.html": "the histories to hover and zoom, all panels together",
     "landing.html": "replay of the landing in three dimensions, for a browser",
     "landing_sol109.bdf": "deck of the direct transient, complete, in the deck's units",
     "airframe.bdf": "deck of the airframe that the program has written for this run",

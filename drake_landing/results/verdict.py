@@ -98,7 +98,7 @@ def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:
         rows.append((abs(bending[k]), name, place, bending[k], found.time[k]))
     rows.sort(key=lambda row: -row[0])
     said = [
-        f"{name} at {place} {value / 1e3:z.1f} {_UNITS[NAMED[1]]} ({time:.3f} s)"
+        f"{name if place in name else f'{name} at {place}'} {value / 1e3:z.1f} {_UNITS[NAMED[1]]} ({time:.3f} s)"
         for _, name, place, value, time in rows[:_SHOWN]
     ]
     if said:

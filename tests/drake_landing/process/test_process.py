@@ -103,7 +103,7 @@ def test_files_are_complete(result: ProcessResult, folder: Path) -> None:
         *("comparison.csv", "gears.csv", "attachment_loads.csv", "tyres.csv"),
         *("worst_elements.csv", "worst_stresses.csv", "section_loads.csv"),
         *("section_roots.csv", "accelerations_equipment.csv", "stages.csv"),
-        *("late_extremes.csv", "README.txt"),
+        *("late_extremes.csv", "README.txt", "histories.html"),
         "pictures",
         *("struts.csv", "accelerations_multibody.csv", "accelerations_transient.csv"),
     }
