@@ -15,5 +15,7 @@ def test_thinned_histories_keep_ends_and_extremes(
     rows = thinned(y, most)
     assert len(rows) <= most + 2 or len(rows) == len(y)
     assert (np.diff(rows) > 0).all()
-    assert rows[0] == 0 and rows[-1] == len(y) - 1
-    assert y[rows].max() == y.max() and y[rows].min() == y.min()
+    assert rows[0] == 0
+    assert rows[-1] == len(y) - 1
+    assert y[rows].max() == y.max()
+    assert y[rows].min() == y.min()
