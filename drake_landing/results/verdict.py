@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drake_landing.airframe.truncation import WANTED
-from drake_landing.parts.cuts import NAMED
 from drake_landing.parts.tables import component_table
 from drake_landing.results.truncation import point_errors
 from drake_landing.results.whole_mass import whole_mass
@@ -18,7 +17,6 @@ if TYPE_CHECKING:
 _FAIR = 0.15  # error above which a model is not called fair any more
 _BALANCE = 0.01  # of the sink energy
 _SHOWN = 3
-_UNITS = {"shear": "kN", "bending": "kN m", "torsion": "kN m"}
 
 
 def verdict(result: "ProcessResult") -> list[tuple[str, str]]:
@@ -98,7 +96,8 @@ def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:
         rows.append((abs(bending[k]), name, place, bending[k], found.time[k]))
     rows.sort(key=lambda row: -row[0])
     said = [
-        f"{name if place in name else f'{name} at {place}'} {value / 1e3:z.1f} {_UNITS[NAMED[1]]} ({time:.3f} s)"
+        f"{name if place in name else f'{name} at {place}'} {value / 1e3:z.1f} kN m "
+        f"({time:.3f} s)"
         for _, name, place, value, time in rows[:_SHOWN]
     ]
     if said:
