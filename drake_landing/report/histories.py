@@ -108,12 +108,12 @@ def _panels(result: "ProcessResult") -> Iterator[tuple[str, str, pd.DataFrame]]:
     yield "Shock-absorber stroke", "m", pd.DataFrame(strokes)
     for names, what in ((["fx", "fy", "fz"], "force"), (["mx", "my", "mz"], "moment")):
         for gear, table in history.attachment.items():
-            own = table[names].add_prefix(f"{_words(gear)} ")
+            own = pd.DataFrame(table[names]).add_prefix(f"{_words(gear)} ")
             title = f"{_words(gear)}: {what} on the airframe at the attachment node"
             yield title, UNITS[names[0]], own
     roots = root_histories(result.parts)
     for quantity in ("shear", "bending", "torsion"):
-        own = roots[[c for c in roots if str(c).endswith(quantity)]]
+        own = pd.DataFrame(roots[[c for c in roots if str(c).endswith(quantity)]])
         if len(own.columns):
             title = f"Section loads: {quantity} at the cuts of the report"
             yield title, unit_of(quantity), own
