@@ -178,9 +178,14 @@ def check(
         return
     checked = load_case(case)
     from drake_landing.process.explain import explain
+    from drake_landing.transient.step_error import StepRefused
 
     with include_reach(include_path or [], trust=trust):
-        print(explain(checked, _default_folder(checked), thorough=thorough))
+        try:
+            print(explain(checked, _default_folder(checked), thorough=thorough))
+        except StepRefused as refused:
+            print(refused.explanation)
+            raise
     if everything:
         print(f"\nall values, defaults included:\n\n{case_text(checked)}", end="")
     else:

@@ -38,7 +38,11 @@ from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.conditions import condition_figures
 from drake_landing.results.files import FILES
-from drake_landing.transient.step_error import StepError, expected_step_error
+from drake_landing.transient.step_error import (
+    StepError,
+    StepRefused,
+    expected_step_error,
+)
 from fem.algebra.linear_solver import factorize
 from fem.errors import by_kind
 from fem.model.structure import Structure
@@ -71,6 +75,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
     Raises:
         InputError: everything that is wrong with deck, gears and scenario, with the
             lines of the case.
+        StepRefused: nothing but the transient's step, with the explanation.
     """
     with case.reading(), TemporaryDirectory() as folder:
         aircraft = prepare_aircraft(case, Path(folder))
@@ -79,7 +84,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         check_mass(structure)
         check_units(structure, aircraft)
         remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
-        cost, step, truncated = None, None, ""
+        cost, step, truncated, refused = None, None, "", None
         if thorough or structure.size <= _AT_ONCE:
             check_free_flight(structure)
             cost = _cost(structure)
@@ -87,7 +92,10 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
             pulses = expected_pulses(
                 structure, case.airframe, aircraft, aircraft.scenario
             )
-            step = expected_step_error(case, aircraft, shapes, pulses)
+            try:
+                step = expected_step_error(case, aircraft, shapes, pulses)
+            except StepRefused as error:  # said when all else has been said
+                step, refused = error.found, error
             truncated = _truncated(case, shapes, pulses)
         _dry_run(case, aircraft, structure)
         conditions = list(_conditions(case, aircraft, structure))
@@ -102,7 +110,10 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
     notices = [*aircraft.notices, *map(case.places.named, remarks)]
     notices += [*structure.notices, *structure.damping_notices]
     notices = by_kind([*notices, *stress_point_notices(structure)])
-    return "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
+    text = "\n".join([_head(case), *lines, *(f"note: {text}" for text in notices)])
+    if refused is not None:
+        raise StepRefused(map(case.places.named, refused.problems), refused.found, text)
+    return text
 
 
 def _cost(structure: Structure) -> Cost:

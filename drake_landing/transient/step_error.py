@@ -7,7 +7,7 @@ is that of an extreme (the largest or the smallest value of a component) over th
 of that component.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,6 +31,21 @@ Float64 = npt.NDArray[np.float64]
 WARNED, REFUSED = 0.02, 0.10  # of the peak
 _SMALL = 0.05  # of the largest peak: smaller components do not count
 _STEPS = (5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5)  # s, that may be proposed
+
+
+class StepRefused(InputError):
+    """The step costs more than the case accepts.
+
+    Attributes:
+        found: the expected error.
+        explanation: what else there is to say of the case; empty: nothing yet.
+    """
+
+    def __init__(
+        self, problems: str | Iterable[str], found: "StepError", explanation: str = ""
+    ) -> None:
+        super().__init__(problems)
+        self.found, self.explanation = found, explanation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,7 +130,7 @@ def expected_step_error(
         pulses: of `expected_pulses`.
 
     Raises:
-        InputError: it is above `REFUSED` and above what the case accepts.
+        StepRefused: it is above `REFUSED` and above what the case accepts.
     """
     found = step_error(
         model,
@@ -128,10 +143,11 @@ def expected_step_error(
         return replace(found, stands_in=True)
     accepted = case.transient.accept
     if found.error > max(REFUSED, accepted / 100.0):
-        raise InputError(
+        raise StepRefused(
             f"transient.step: found a {found}; expected at most "
             f"{max(100 * REFUSED, accepted):g} %, a smaller step, or 'accept: "
-            f"{np.ceil(100 * found.error):.0f}' (%) beside the step"
+            f"{np.ceil(100 * found.error):.0f}' (%) beside the step",
+            found,
         )
     return found
 
