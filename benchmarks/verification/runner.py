@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 from fem.deck.reader import read_deck
+from fem.deck.source import include_reach
 from fem.solution import Options, run_deck
 
 
@@ -61,5 +62,7 @@ def run(
         if isinstance(deck, str):
             path.write_text(deck)
         out = Path(folder) / "model.h5"
-        run_deck(read_deck(path, ignore=ignore), out, options)
+        with include_reach(trust=True):  # reference decks include each other
+            model = read_deck(path, ignore=ignore)
+        run_deck(model, out, options)
         return Results(out)

@@ -56,11 +56,15 @@ class Field:
     worst: Float64
 
 
-@cache
 def can_draw() -> bool:
-    """Whether VTK can draw here; a crash of a driver stays in a process of its own."""
-    if os.environ.get("DRAKE_LANDING_PICTURES", "").lower() == "off":
-        return False
+    """Whether pictures are wanted, and VTK can draw here."""
+    wanted = os.environ.get("DRAKE_LANDING_PICTURES", "").lower() != "off"
+    return wanted and _vtk_draws()
+
+
+@cache
+def _vtk_draws() -> bool:
+    """Tried once; a crash of a driver stays in a process of its own."""
     command = [sys.executable, "-c", _TRY]
     try:
         done = subprocess.run(command, capture_output=True, timeout=120, check=False)

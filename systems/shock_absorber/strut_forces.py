@@ -127,10 +127,13 @@ def strut_forces(
     lost = damping * flow + (friction + damper) * rate
     zero = 0.0 * lost
     first, other, oil = zero, zero, zero
-    if thermal_time is not None:
-        inside = at if at < limit else limit
-        warmed, first, other = heat_of_gas(inside, main, second, heat, thermal_time)
-        lost = lost + warmed
+    # Nested, for compiled code drops a branch only where one value alone is None.
+    # Without its state the gas is as warm as its walls.
+    if thermal_time is not None:  # noqa: SIM102
+        if heat is not None:
+            inside = at if at < limit else limit
+            warmed, first, other = heat_of_gas(inside, main, second, heat, thermal_time)
+            lost = lost + warmed
     if oil_stiffness is not None:
         oil = flow
     return gas, damping, friction, elastic, damper, lost, first, other, oil

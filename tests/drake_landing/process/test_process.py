@@ -13,7 +13,6 @@ import pytest
 from drake_landing.airframe.body import AirframeModel, load_airframe, mass_properties
 from drake_landing.case.reading import load_case, parse_case
 from drake_landing.case.schema import Airframe, Case
-from drake_landing.parts.pictures import can_draw
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.run import run_case
 from drake_landing.progress import Silent
@@ -192,12 +191,10 @@ def test_practices_and_a_page_without_pictures(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("DRAKE_LANDING_PICTURES", "off")
-    can_draw.cache_clear()
     case = variant(("duration: 0.4", "duration: 0.1"), ("step: 5.0e-4", "step: 1.0e-3"))
     monkeypatch.setenv("DRAKE_LANDING_CACHE", str(tmp_path / "cache"))
     done = run_case(case, tmp_path, practices=True)
     again = run_case(case, tmp_path, practices=True)
-    can_draw.cache_clear()
     assert done.practices is not None
     assert again.practices is not None
     # The second run has found the transient.
