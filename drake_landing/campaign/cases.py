@@ -16,7 +16,12 @@ from pydantic import ValidationError
 
 from drake_landing.campaign.schema import Campaign, Scale, Value
 from drake_landing.case.document import read_document
-from drake_landing.case.reading import parse_case, parse_model, read_text
+from drake_landing.case.reading import (
+    parse_case,
+    parse_model,
+    problems_of,
+    read_text,
+)
 from drake_landing.case.schema import Case
 from drake_landing.gears.data import LandingGear
 from fem.errors import InputError, nearest
@@ -90,18 +95,13 @@ class BaseCase:
         for path, value in values.items():
             scaled = isinstance(axes.get(path), Scale)
             problems += _set(data, path, value, scaled)
+        try:
+            case = Case.model_validate(data, context={"folder": self.folder})
+        except ValidationError as error:
+            problems += [f"axes.{text}" for text in problems_of(Case, error, data)]
         if problems:
             raise InputError(problems)
-        try:
-            return Case.model_validate(data, context={"folder": self.folder})
-        except ValidationError as error:
-            raise InputError(
-                f"{'.'.join(str(s) for s in e['loc'])}: "
-                f"{str(e['msg']).removeprefix('Value error, ')}, found {e['input']!r}"[
-                    :300
-                ]
-                for e in error.errors()
-            ) from None
+        return case
 
 
 def _set(data: Data, path: str, value: Value, scaled: bool) -> list[str]:

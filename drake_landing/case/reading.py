@@ -159,6 +159,14 @@ def _repeated_keys(node: yaml.Node, path: str = "") -> list[tuple[int, str]]:
     return found
 
 
+def problems_of(
+    model: type[BaseModel], error: ValidationError, data: dict[str, Any]
+) -> list[str]:
+    """Problems of data that come from no file, each `field: found, expected`."""
+    found = [_problem(model, Places(), dict(e), data)[1] for e in error.errors()]
+    return list(dict.fromkeys(found))
+
+
 def _problem(
     model: type[BaseModel], places: Places, error: dict[str, Any], data: dict[str, Any]
 ) -> tuple[int, str]:

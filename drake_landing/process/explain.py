@@ -202,10 +202,8 @@ def _airframe(
     axes = case.airframe.axes
     yield _line(
         "",
-        f"flies toward {axes.forward}, up is {axes.up}, units {case.airframe.units}",
-    )
-    yield _line(
-        "", f"elastic modes '{case.airframe.select}', {case.airframe.basis}{truncated}"
+        f"flies toward {axes.forward}, up is {axes.up}, units {case.airframe.units}; "
+        f"elastic modes '{case.airframe.select}', {case.airframe.basis}{truncated}",
     )
     yield _line("damping", damping_story(structure))
     points = ", ".join(f"{n} ({grid})" for n, grid in aircraft.monitoring.items())

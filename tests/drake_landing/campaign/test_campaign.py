@@ -148,13 +148,15 @@ def test_a_case_that_cannot_be_flown_does_not_stop_the_others(tmp_path: Path) ->
 def test_every_problem_of_every_case_is_named_once(tmp_path: Path) -> None:
     text = CAMPAIGN.replace(
         "scenario.sink_rate: [0.6, 1.2]",
-        "scenario.sink_rate: [0.6, -1.0]\n  gears.mian_left.tyre.stiffness: [1.0]",
+        "scenario.sink_rate: [0.6, -1.0]\n  gears.mian_left.tyre.stiffness: [1.0]"
+        "\n  scenario.snk_rate: [1.0]",
     )
     with pytest.raises(InputError) as error:
         expand(load_campaign(_write(tmp_path, text)))
     said = "\n".join(error.value.problems)
     assert "campaign.yaml:" in said
     assert "did you mean 'main_left'" in said
+    assert "axes.scenario.snk_rate: unknown key; did you mean 'sink_rate'" in said
 
 
 def test_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
