@@ -1,17 +1,20 @@
 """`python -m drake_landing` and `drake-landing`; see `drake_landing.cli`."""
 
-import sys
+from collections.abc import Callable
+from typing import Any
+
+from fem.exit_status import run_command
+
+
+def _load() -> Callable[..., Any]:
+    from drake_landing.cli import app
+
+    return app
 
 
 def main() -> None:
     """Entry point; Ctrl-C is one line even while packages are imported."""
-    try:
-        from drake_landing.cli import main as run
-
-        run()
-    except KeyboardInterrupt:
-        print("interrupted", file=sys.stderr)
-        sys.exit(130)
+    run_command(_load, "drake-landing")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """A store of costly arrays, found again by the content that they were computed from.
 
 An entry is a folder `<kind>-<key>` with one `.npy` file per array and `entry.json`,
-which lists sizes and checksums and is written last. The key is a hash of everything
-that the arrays depend on: matrices, settings, and the version of this format. Changed
+which lists checksums, has one of its own, and is written last. Arrays with NaN are
+never kept. The key is a hash of everything that the arrays depend on: matrices,
+settings, and the version of this format. Changed
 input has another key; an entry that is damaged, incomplete or of another format is
 deleted and computed anew. Nothing else is ever trusted or kept open, so the folder may
 be deleted at any time.
@@ -15,9 +16,11 @@ default 8.
 
 import hashlib
 import json
+import math
 import os
 import shutil
 import tempfile
+import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from functools import cache as once
@@ -29,11 +32,15 @@ import numpy.typing as npt
 import platformdirs
 import scipy.sparse as sp
 
+from fem.errors import InputError
+
 Arrays = dict[str, npt.NDArray]
 
-FORMAT = 1  # of entries, and of what the program stores in them
+FORMAT = 2  # of entries, and of what the program stores in them
 _MANIFEST = "entry.json"
 _CHUNK = 1 << 24
+_ASIDE = ".part-"
+_ABANDONED = 86_400.0  # s after which what is written aside has no writer any more
 
 
 class Cache:
@@ -50,10 +57,13 @@ class Cache:
 
     @classmethod
     def of_user(cls) -> "Cache":
-        """Where environment and platform say."""
+        """Where environment and platform say.
+
+        Raises:
+            InputError: DRAKE_LANDING_CACHE_GB is no size.
+        """
         place = os.environ.get("DRAKE_LANDING_CACHE", "")
-        text = os.environ.get("DRAKE_LANDING_CACHE_GB", "")
-        limit = float(text) if text.replace(".", "", 1).isdigit() else 8.0
+        limit = _gigabytes(os.environ.get("DRAKE_LANDING_CACHE_GB", ""))
         if place.lower() == "off":
             return cls(None)
         folder = Path(place or platformdirs.user_cache_dir("drake-landing"))
@@ -79,8 +89,8 @@ class Cache:
         return self._load(self.folder / f"{kind}-{key}") if self.folder else None
 
     def keep(self, kind: str, key: str, arrays: Mapping[str, npt.NDArray]) -> None:
-        """Makes or replaces an entry."""
-        if self.folder is None:
+        """Makes or replaces an entry; arrays with NaN are not kept."""
+        if self.folder is None or any(map(_has_nan, arrays.values())):
             return
         place = self.folder / f"{kind}-{key}"
         with suppress(OSError):  # a full or read-only disk costs time, not the result
@@ -100,26 +110,36 @@ class Cache:
         """Time of last use, bytes and folder of each."""
         if self.folder is None or not self.folder.is_dir():
             return []
-        return [
-            (p.stat().st_mtime, sum(f.stat().st_size for f in p.iterdir()), p)
-            for p in self.folder.iterdir()
-            if (p / _MANIFEST).is_file()
-        ]
+        found = []
+        for place in self.folder.iterdir():
+            with suppress(OSError):  # another process deletes it
+                if (place / _MANIFEST).is_file():
+                    size = sum(f.stat().st_size for f in place.iterdir())
+                    found.append((place.stat().st_mtime, size, place))
+        return found
 
     def _load(self, place: Path) -> Arrays | None:
         if not place.is_dir():
             return None
         try:
             manifest = json.loads((place / _MANIFEST).read_text(encoding="utf-8"))
-            if manifest["format"] != FORMAT:
-                raise ValueError("another format")
+            checksums = manifest["arrays"]
+            if manifest != _manifest(checksums):
+                raise ValueError("damaged, or of another format")
             arrays = {}
-            for name, checksum in manifest["arrays"].items():
+            for name, checksum in checksums.items():
                 if _checksum(place / f"{name}.npy") != checksum:
                     raise ValueError("damaged")
                 arrays[name] = np.load(place / f"{name}.npy", allow_pickle=False)
             os.utime(place)
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        except (
+            OSError,
+            LookupError,
+            ValueError,
+            TypeError,
+            AttributeError,
+            RecursionError,
+        ):
             shutil.rmtree(place, ignore_errors=True)
             return None
         return arrays
@@ -127,14 +147,14 @@ class Cache:
     def _store(self, place: Path, arrays: Mapping[str, npt.NDArray]) -> None:
         """Written aside, then renamed: a reader never meets half an entry."""
         place.parent.mkdir(parents=True, exist_ok=True)
-        aside = Path(tempfile.mkdtemp(prefix=".part-", dir=place.parent))
+        aside = Path(tempfile.mkdtemp(prefix=_ASIDE, dir=place.parent))
         try:
             checksums = {}
             for name, values in arrays.items():
                 file = aside / f"{name}.npy"
                 np.save(file, values, allow_pickle=False)
                 checksums[name] = _checksum(file)
-            text = json.dumps({"format": FORMAT, "arrays": checksums}, indent=1)
+            text = json.dumps(_manifest(checksums), indent=1)
             (aside / _MANIFEST).write_text(text, encoding="utf-8")
             shutil.rmtree(place, ignore_errors=True)
             aside.rename(place)
@@ -142,6 +162,9 @@ class Cache:
             shutil.rmtree(aside, ignore_errors=True)
 
     def _make_room(self, keep: Path) -> None:
+        for left in keep.parent.glob(f"{_ASIDE}*"):  # by a process that was killed
+            if time.time() - left.stat().st_mtime > _ABANDONED:
+                shutil.rmtree(left, ignore_errors=True)
         entries = self._entries()
         total = sum(size for _, size, _ in entries)
         for _, size, place in sorted(entries):
@@ -189,6 +212,30 @@ def _feed(digest: "hashlib._Hash", part: object) -> None:
             _feed(digest, item)
     else:
         raise TypeError(f"{type(part).__name__} has no content key")
+
+
+def _gigabytes(text: str) -> float:
+    """A size of the environment, by default 8."""
+    try:
+        size = float(text or 8.0)
+    except ValueError:
+        size = math.nan
+    if not 0.0 <= size < math.inf:
+        raise InputError(
+            f"DRAKE_LANDING_CACHE_GB: found '{text}', expected gigabytes, a number "
+            "of 0 or more"
+        )
+    return size
+
+
+def _has_nan(values: npt.NDArray) -> bool:
+    return values.dtype.kind in "fc" and bool(np.isnan(values).any())
+
+
+def _manifest(checksums: Mapping[str, str]) -> dict[str, object]:
+    """What is written of an entry, with a checksum of its own."""
+    own = content_key(dict(checksums))
+    return {"format": FORMAT, "arrays": dict(checksums), "checksum": own}
 
 
 def _checksum(file: Path) -> str:

@@ -1,16 +1,11 @@
 """Command line: `drake-landing`.
 
-Exit status 0 on success, 2 on bad input (one message on standard error), 1 on an
-internal failure. Heavy packages are imported by the commands that need them.
+Exit states are those of `fem.exit_status`. Heavy packages are imported by the commands
+that need them.
 """
 
-import os
-import signal
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
-from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -18,8 +13,6 @@ import typer
 if TYPE_CHECKING:
     from drake_landing.case.schema import Case
     from drake_landing.results.result import ProcessResult
-
-_INTERRUPTED = 130
 
 app = typer.Typer(
     name="drake-landing",
@@ -435,82 +428,8 @@ def _summary(result: "ProcessResult", folder: Path) -> str:
     return "\n".join([*lines, "", f"report: {folder / 'report.html'}"])
 
 
-def main() -> None:
-    """Entry point: runs the command and turns errors into exit states."""
-    sys.exit(guarded(app))
-
-
 def guarded(command: Callable[..., Any], args: list[str] | None = None) -> int:
     """Exit status of a command; errors become one message on standard error."""
-    with _noted_interrupts() as interrupts:
-        status = _status(command, args, interrupts)
-    if status == _INTERRUPTED:
-        print("interrupted", file=sys.stderr)
-    return status
+    from fem.exit_status import exit_status
 
-
-def _status(
-    command: Callable[..., Any], args: list[str] | None, interrupts: list[int]
-) -> int:
-    from fem.errors import InputError
-
-    try:
-        result = command(args=args, prog_name="drake-landing", standalone_mode=False)
-    except InputError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    except typer.Exit as stop:
-        return stop.exit_code
-    except (KeyboardInterrupt, typer.Abort):
-        return _INTERRUPTED
-    except (Exception, SystemExit) as error:  # Drake's checks exit
-        if isinstance(error, SystemExit) and error.code == 0:  # shell completion
-            return 0
-        return _INTERRUPTED if interrupts else _failure(error)
-    return result if isinstance(result, int) else 0
-
-
-def _failure(error: BaseException) -> int:
-    if isinstance(error, OSError):
-        print(f"error: {_os_problem(error)}", file=sys.stderr)
-        return 2
-    if (show := getattr(error, "show", None)) is not None:  # usage, from click
-        show(file=sys.stderr)
-        return 2
-    if getattr(error, "for_users", False):
-        print(f"error: {error}", file=sys.stderr)
-        return 1
-    return _internal_failure(error)
-
-
-@contextmanager
-def _noted_interrupts() -> Iterator[list[int]]:
-    """Ctrl-C so far: libraries may make an error of their own of the exception."""
-    seen: list[int] = []
-
-    def note(number: int, frame: FrameType | None) -> None:
-        seen.append(number)
-        signal.default_int_handler(number, frame)
-
-    before = signal.signal(signal.SIGINT, note)
-    try:
-        yield seen
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
-def _os_problem(error: OSError) -> str:
-    place = f"{error.filename}: " if error.filename else ""
-    return place + (error.strerror or str(error))
-
-
-def _internal_failure(error: BaseException) -> int:
-    """A bug: one line for the user, the traceback on request."""
-    print(
-        f"internal failure: {type(error).__name__}: {error}\n"
-        "(set DRAKE_LANDING_TRACEBACK=1 for the traceback)",
-        file=sys.stderr,
-    )
-    if os.environ.get("DRAKE_LANDING_TRACEBACK"):
-        raise error
-    return 1
+    return exit_status(command, "drake-landing", args)

@@ -1,13 +1,9 @@
 """Command line of the finite-element module.
 
-Exit status 0 on success, 2 on bad input (one message, no traceback), 1 on an internal
-failure.
+Exit states are those of `fem.exit_status`.
 """
 
 import contextlib
-import os
-import sys
-import traceback
 from collections.abc import Callable
 from pathlib import Path
 from time import perf_counter
@@ -177,45 +173,7 @@ def run(
         export(results, model, op2=wanted, paraview=paraview, say=console.say)
 
 
-def main(arguments: list[str] | None = None) -> None:
-    """Run the command line and exit with its status."""
-    sys.exit(_status(arguments))
-
-
 def _status(arguments: list[str] | None) -> int:
-    from fem.errors import InputError
+    from fem.exit_status import exit_status
 
-    try:
-        status = app(args=arguments, prog_name="python -m fem", standalone_mode=False)
-    except InputError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    except (typer.Abort, KeyboardInterrupt):
-        print("interrupted", file=sys.stderr)
-        return 130
-    except Exception as error:
-        if hasattr(error, "exit_code") and hasattr(error, "show"):
-            error.show()
-            return int(error.exit_code)
-        if isinstance(error, OSError | MemoryError):
-            print(f"error: {_system_problem(error)}", file=sys.stderr)
-            return 2 if isinstance(error, OSError) else 1
-        print(
-            f"internal failure: {type(error).__name__}: {error}\n"
-            "(set DRAKE_LANDING_TRACEBACK=1 for the traceback)",
-            file=sys.stderr,
-        )
-        if os.environ.get("DRAKE_LANDING_TRACEBACK"):
-            traceback.print_exc()
-        return 1
-    if status == 130:
-        print("interrupted", file=sys.stderr)
-    return status if isinstance(status, int) else 0
-
-
-def _system_problem(error: OSError | MemoryError) -> str:
-    """The file and what the system says of it."""
-    if isinstance(error, OSError) and error.strerror:
-        place = f"{error.filename}: " if error.filename else ""
-        return f"{place}{error.strerror}"
-    return str(error) or type(error).__name__
+    return exit_status(app, "python -m fem", arguments)

@@ -17,7 +17,7 @@ from drake_landing.campaign.task import case_file
 from drake_landing.parts.stress_rows import Extremes, StressRows, starts
 from drake_landing.transient.response import SCHEMES
 from fem.arrays import Float64
-from fem.files.aside import written_aside
+from fem.files.hdf5_aside import written_hdf5
 from fem.response.direct import direct_transient
 from fem.response.observation import Chunk
 from fem.response.system import sampled_load
@@ -58,10 +58,7 @@ def run_block(task: BlockTask) -> tuple[int, ...]:
     watch = BlockStress(setup.rows, full.operators, setup.steady)
     _integrate(full, time, loads, watch, task.scheme)
     for number, key, state in zip(task.numbers, task.keys, watch.states):
-        with (
-            written_aside(confirmed_file(task.folder, number)) as part,
-            h5py.File(part, "w") as file,
-        ):
+        with written_hdf5(confirmed_file(task.folder, number)) as file:
             file.attrs.update(case=number, key=key, until=time[-1])
             found = {
                 "equivalent": (state.equivalent, "Pa"),

@@ -1,7 +1,9 @@
 """From axes to cases: every combination of values, times samples of distributions."""
 
+import io
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -18,6 +20,7 @@ from drake_landing.campaign.schema import (
 )
 from fem.arrays import Float64
 from fem.errors import InputError, nearest
+from fem.given import given_text
 
 
 def design(campaign: Campaign) -> pd.DataFrame:
@@ -85,11 +88,20 @@ def quantiles(axis: Distribution, share: Float64) -> Float64:
     return np.asarray(law.ppf(low + share * (high - low)))
 
 
+def _read_csv(path: Path) -> pd.DataFrame:
+    """Raises an InputError where it is no table."""
+    text = given_text(path, "CSV table")
+    try:
+        return pd.read_csv(io.StringIO(text))
+    except (ValueError, pd.errors.ParserError) as error:
+        raise InputError(f"{path}: no CSV table: {error}") from None
+
+
 def _measured(campaign: Campaign) -> pd.DataFrame:
     """The table's rows under the names of fields; empty without one."""
     if campaign.table is None:
         return pd.DataFrame()
-    found = pd.read_csv(campaign.table.file)
+    found = _read_csv(campaign.table.file)
     wanted = campaign.table.columns
     missing = [name for name in wanted if name not in found.columns]
     if missing or found.empty:

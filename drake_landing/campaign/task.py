@@ -32,6 +32,7 @@ from drake_landing.parts.cuts import NAMED
 from fem.arrays import Float64
 from fem.errors import InputError
 from fem.files.aside import written_aside
+from fem.files.hdf5_aside import written_hdf5
 
 Status = Literal["done", "suspect", "failed"]
 
@@ -116,10 +117,7 @@ def _run(task: LandingTask) -> Status:
     z = amplitudes(setup.basis, history, loads)
     found = screen(setup.basis, setup.rows, z, setup.steady)
     status, remark = _judged(history, found)
-    with (
-        written_aside(case_file(task.folder, task.number)) as part,
-        h5py.File(part, "w") as file,
-    ):
+    with written_hdf5(case_file(task.folder, task.number)) as file:
         file.attrs.update(
             case=task.number, key=task.key, status=status, remark=remark, yaml=task.text
         )

@@ -18,7 +18,9 @@ from drake_landing.case.document import read_document
 from drake_landing.case.places import Places
 from drake_landing.case.schema import Case
 from fem.errors import InputError, nearest
+from fem.given import given_text
 
+_MOST_BYTES = 20_000_000
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 # What pydantic says of types, in words of people.
@@ -123,18 +125,7 @@ def read_text(path: Path) -> str:
     Raises:
         InputError: it cannot be read.
     """
-    try:
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such case file") from None
-    except IsADirectoryError:
-        raise InputError(f"{path}: is a folder, expected a case file") from None
-    except PermissionError:
-        raise InputError(f"{path}: may not be read (permission denied)") from None
-    except UnicodeDecodeError as error:
-        raise InputError(
-            f"{path}: not a UTF-8 text file (byte {error.start})"
-        ) from None
+    return given_text(path, "case file", _MOST_BYTES)
 
 
 def _kind(data: Any) -> str:

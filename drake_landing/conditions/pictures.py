@@ -9,6 +9,7 @@ from drake_landing.conditions.balance import RigidBalance
 from drake_landing.conditions.build import OnGround
 from drake_landing.conditions.ground import BookCase
 from drake_landing.conditions.statics import point
+from fem.files.aside import written_aside
 
 # Views: what is drawn to the right and upward, components of G and their sign.
 _VIEWS = (("from port", 0, 2), ("from ahead", 1, 2), ("from above", 0, 1))
@@ -44,8 +45,11 @@ def load_pictures(
         figure.tight_layout()
         name = "".join(c if c.isalnum() else "_" for c in paragraph).strip("_")
         path = folder / f"{name}.png"
-        figure.savefig(path, dpi=110)
-        plt.close(figure)
+        try:
+            with written_aside(path) as part:
+                figure.savefig(part, dpi=110)
+        finally:
+            plt.close(figure)
         written.append(path)
     return written
 

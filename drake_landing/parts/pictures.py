@@ -18,6 +18,7 @@ import pandas as pd
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.stress_watch import Snapshot
 from fem.deck.grids import corners_of
+from fem.files.aside import written_aside
 from fem.model.structure import Structure
 
 if TYPE_CHECKING:
@@ -171,9 +172,11 @@ def draw_field(
     if close:
         plotter.add_mesh(_outline(field.worst), color="magenta", line_width=5)
     _look(plotter, field, close=close, up=up, aft=aft)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    plotter.screenshot(str(path))
-    plotter.close()
+    try:
+        with written_aside(path) as part:
+            plotter.screenshot(str(part))
+    finally:
+        plotter.close()
     return np.array(scale)
 
 

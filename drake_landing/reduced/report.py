@@ -11,6 +11,7 @@ from drake_landing.files import write_csv
 from drake_landing.reduced.checks import ReductionChecks
 from drake_landing.reduced.model import ReducedModel
 from fem.files.aside import write_aside
+from fem.files.hdf5_aside import written_hdf5
 from fem.files.matrices import write_dmig, write_op4
 from fem.files.matrices.nastran_h5 import write_h5
 
@@ -85,7 +86,8 @@ def write_report(out: Path, model: ReducedModel, checks: ReductionChecks) -> lis
     write_csv(out / "modes.csv", checks.modes)
     text = report_text(model, checks)
     write_aside(out / "report.txt", lambda part: part.write_text(text, "utf-8"))
-    write_aside(out / "reduced.h5", lambda part: _write_h5(part, model, checks))
+    with written_hdf5(out / "reduced.h5") as file:
+        _write_h5(file, model, checks)
     draw_errors(out / "errors.png", {model.source: checks.modes})
     return [out / name for name in (*_FILES, "modes.csv", "errors.png")]
 
@@ -102,21 +104,20 @@ def grid_table(model: ReducedModel) -> pd.DataFrame:
     )
 
 
-def _write_h5(path: Path, model: ReducedModel, checks: ReductionChecks) -> None:
-    with h5py.File(path, "w") as file:
-        write_h5(file, model.matrices())
-        file["grid_id"], file["position"] = model.grid_id, model.p
-        file["kept"], file["labels"] = model.kept, model.labels
-        file["interior_hz"] = model.interior_hz
-        file.attrs["source"] = model.source
-        for name in ("mass", "rigid", "modes", "counts"):
-            table: pd.DataFrame = getattr(checks, name)
-            for column in table.columns:
-                values = table[column].to_numpy()
-                if values.dtype.kind not in "if":
-                    values = values.astype(bytes if values.dtype.kind == "S" else "O")
-                    values = np.array([str(v).encode() for v in values])
-                file[f"checks/{name}/{column}"] = values
+def _write_h5(file: h5py.File, model: ReducedModel, checks: ReductionChecks) -> None:
+    write_h5(file, model.matrices())
+    file["grid_id"], file["position"] = model.grid_id, model.p
+    file["kept"], file["labels"] = model.kept, model.labels
+    file["interior_hz"] = model.interior_hz
+    file.attrs["source"] = model.source
+    for name in ("mass", "rigid", "modes", "counts"):
+        table: pd.DataFrame = getattr(checks, name)
+        for column in table.columns:
+            values = table[column].to_numpy()
+            if values.dtype.kind not in "if":
+                values = values.astype(bytes if values.dtype.kind == "S" else "O")
+                values = np.array([str(v).encode() for v in values])
+            file[f"checks/{name}/{column}"] = values
 
 
 def draw_errors(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:

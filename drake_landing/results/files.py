@@ -43,8 +43,8 @@ from drake_landing.results.units import (
     unit_of,
     with_units,
 )
-from fem.files.aside import write_aside
 from fem.files.escaping import group_name
+from fem.files.hdf5_aside import written_hdf5
 from fem.recovery.envelope import Envelope
 from systems.airframe.modal_body import ModalBody
 
@@ -104,27 +104,23 @@ def write_results(
         provenance: how the run was made.
         seconds: that it has taken so far.
     """
-
-    def write(to: Path) -> None:
-        with h5py.File(to, "w") as file:
-            file.attrs["case"] = case
-            for name, version in versions().items():
-                file.require_group("versions").attrs[name] = version
-            provenance.write(file, seconds)
-            _write_loads(file.create_group("attachment_loads"), loads)
-            _write_history(file.create_group("multibody"), history)
-            for point, table in response.items():
-                _write_series(file, f"fe/monitoring/{group_name(point)}", table)
-            for envelope in envelopes:
-                envelope.write(file)
-            _name_units(file)
-            _write_parts(file.create_group("parts"), parts)
-            _write_airframe(file.create_group("airframe"), body, R_AB)
-            _write_table(file.create_group("comparison"), comparison)
-            peaks = gears.assign(unit=of_quantities(gears))
-            _write_table(file.create_group("gears"), peaks)
-
-    write_aside(path, write)
+    with written_hdf5(path) as file:
+        file.attrs["case"] = case
+        for name, version in versions().items():
+            file.require_group("versions").attrs[name] = version
+        provenance.write(file, seconds)
+        _write_loads(file.create_group("attachment_loads"), loads)
+        _write_history(file.create_group("multibody"), history)
+        for point, table in response.items():
+            _write_series(file, f"fe/monitoring/{group_name(point)}", table)
+        for envelope in envelopes:
+            envelope.write(file)
+        _name_units(file)
+        _write_parts(file.create_group("parts"), parts)
+        _write_airframe(file.create_group("airframe"), body, R_AB)
+        _write_table(file.create_group("comparison"), comparison)
+        peaks = gears.assign(unit=of_quantities(gears))
+        _write_table(file.create_group("gears"), peaks)
 
 
 def _dataset(group: h5py.Group, name: str, values: npt.ArrayLike, unit: str) -> None:

@@ -143,8 +143,14 @@ def read_provenance(folder: Path) -> Provenance:
                 gears=group["gears"].asstr()[()],
                 gears_sha256=str(group["gears"].attrs["sha256"]),
             )
+    except InputError:
+        raise
     except OSError as error:
         raise InputError(f"{path}: is no HDF5 file: {error}") from None
+    except (LookupError, TypeError, ValueError, AttributeError, RuntimeError) as error:
+        raise InputError(
+            f"{path}: does not say how it was made as this program would: {error}"
+        ) from None
 
 
 def gears_text(gears: Sequence[LandingGear]) -> str:

@@ -22,6 +22,7 @@ _LONGEST_PATH = 20  # lines over which the path of an INCLUDE may be split
 _DEEPEST = 20  # INCLUDEs within each other
 _MOST_FILES = 2_000
 _MOST_BYTES = 4_000_000_000  # of all files; a deck of ten million grids has less
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 _LONGEST_LINE = 10_000  # characters; a path on one line may be long
 
 
@@ -160,7 +161,8 @@ def _text(source: Source, path: Path, shown: str) -> str:
     except OSError as error:
         raise InputError(f"{shown}: {error.strerror}") from None
     if b"\0" in data:
-        raise InputError(f"{shown}: not a text file; expected a Nastran deck")
+        kind = "text in UTF-16" if data[:2] in _UTF_16 else "not a text file"
+        raise InputError(f"{shown}: {kind}; expected a Nastran deck")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

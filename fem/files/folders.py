@@ -21,6 +21,7 @@ except ImportError:  # Windows
     fcntl = None
 
 _MARK = ".made-by"
+_LONGEST = 1000  # bytes of it
 _held: dict[Path, int] = {}  # lock -> open file, for the life of the process
 
 
@@ -40,7 +41,7 @@ def claim(folder: Path, maker: str, work: str = "") -> Path:
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--out: {folder} is a file, expected a folder")
     mark = folder / _MARK
-    found = mark.read_text(encoding="utf-8").strip() if mark.is_file() else maker
+    found = _maker(mark) or maker
     if found != maker:
         raise InputError(
             f"--out: {folder} holds the results of '{found}', those of '{maker}' would "
@@ -52,6 +53,14 @@ def claim(folder: Path, maker: str, work: str = "") -> Path:
     with written_aside(mark) as part:
         part.write_text(maker + "\n", encoding="utf-8")
     return folder
+
+
+def _maker(mark: Path) -> str:
+    """Whose results there are; a link tells nothing of where it leads."""
+    if mark.is_symlink() or not mark.is_file():
+        return ""
+    with mark.open("rb") as file:
+        return file.read(_LONGEST).decode("utf-8", "replace").strip()
 
 
 @contextlib.contextmanager
@@ -114,8 +123,9 @@ def _lock(path: Path, folder: Path) -> None:
         os.close(file)  # whoever had it let go of it just now
         _lock(path, folder)
         return
-    os.ftruncate(file, 0)
-    os.write(file, f"process {os.getpid()} on {socket.gethostname()}\n".encode())
+    with contextlib.suppress(OSError):  # a full disk: the lock holds without its text
+        os.ftruncate(file, 0)
+        os.write(file, f"process {os.getpid()} on {socket.gethostname()}\n".encode())
     _held[path] = file
 
 

@@ -18,8 +18,8 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
 from fem.deck.case_sets import Selection
-from fem.files.aside import written_aside
 from fem.files.finite import require_finite
+from fem.files.hdf5_aside import written_hdf5
 from fem.geometry.points import Points
 from fem.model.structure import Structure
 from fem.recovery.elements import ElementTable
@@ -41,8 +41,7 @@ class ResultFile:
 
     def __enter__(self) -> Self:
         with ExitStack() as stack:
-            part = stack.enter_context(written_aside(self.path))
-            self.file = stack.enter_context(h5py.File(part, "w"))
+            self.file = stack.enter_context(written_hdf5(self.path))
             self._open = stack.pop_all()
         return self
 

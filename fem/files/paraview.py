@@ -20,7 +20,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.records import CARDS
 from fem.elements.connectivity import element_grids
 from fem.elements.stress_measures import plane_von_mises
-from fem.files.aside import written_aside
+from fem.files.hdf5_aside import written_hdf5
 from fem.files.reading import ElementResult, PointResult, Solution, solutions
 from fem.model.structure import Structure
 
@@ -64,7 +64,7 @@ def write_paraview(results: Path, structure: Structure, folder: Path) -> list[Pa
             name = solution.analysis
             name += f"_{solution.subcase}" if solution.subcase else ""
             path = folder / f"{results.stem}_{name}.vtkhdf"
-            with written_aside(path) as part, h5py.File(part, "w") as file:
+            with written_hdf5(path) as file:
                 _write(file, structure, cells, solution)
             written.append(path)
     return written

@@ -16,6 +16,7 @@ import hashlib
 import os
 import sys
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import ParamSpec, TypeVar, cast
@@ -25,6 +26,7 @@ import platformdirs
 from llvmlite.binding import get_host_cpu_name
 from numba import njit
 from numba.core import config
+from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
 P = ParamSpec("P")
@@ -87,9 +89,26 @@ def _compiled(function: Callable[P, R], folder: Path, options: dict) -> Callable
     # Numba looks up the folder when it decorates.
     before, config.CACHE_DIR = config.CACHE_DIR, str(folder)
     try:
-        return cast(Callable[P, R], njit(cache=True, **options)(function))
+        found = njit(**options)(function)
+        found._cache = _Forgiving(function)
+        return cast(Callable[P, R], found)
     finally:
         config.CACHE_DIR = before
+
+
+class _Forgiving(FunctionCache):
+    """A full disk, or damaged machine code, costs time and not the result."""
+
+    def load_overload(self, sig: object, target_context: object) -> object:
+        """See numba; None: compile."""
+        with suppress(Exception):  # of unpickling: any
+            return super().load_overload(sig, target_context)
+        return None
+
+    def save_overload(self, sig: object, data: object) -> None:
+        """See numba."""
+        with suppress(OSError):
+            super().save_overload(sig, data)
 
 
 def _folder(file: str, others: tuple[Path, ...] = ()) -> Path:

@@ -1,5 +1,7 @@
 """The store finds what it knows, and never trusts what is damaged."""
 
+import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +9,7 @@ import pytest
 import scipy.sparse as sp
 
 from drake_landing.cache import Arrays, Cache, content_key
+from fem.errors import InputError
 
 
 class Builder:
@@ -29,7 +32,10 @@ def test_second_time_nothing_is_built(tmp_path: Path) -> None:
     assert build.calls == 2
 
 
-@pytest.mark.parametrize("damage", ["flip", "cut", "no manifest", "format", "garbage"])
+DAMAGE = "flip, cut, no manifest, format, garbage, array struck, list, deep"
+
+
+@pytest.mark.parametrize("damage", DAMAGE.split(", "))
 def test_damaged_entries_are_built_anew(tmp_path: Path, damage: str) -> None:
     build, cache = Builder(), Cache(tmp_path)
     cache.arrays("modes", "k", build)
@@ -50,6 +56,14 @@ def test_damaged_entries_are_built_anew(tmp_path: Path, damage: str) -> None:
             )
         case "garbage":
             manifest.write_text("[1, 2")
+        case "array struck":
+            text = json.loads(manifest.read_text())
+            del text["arrays"]["b"]
+            manifest.write_text(json.dumps(text))
+        case "list":
+            manifest.write_text('{"format": 2, "arrays": [], "checksum": 1}')
+        case "deep":
+            manifest.write_text("[" * 100_000)
     found = cache.arrays("modes", "k", build)
     assert build.calls == 2
     np.testing.assert_array_equal(found["a"], np.arange(6.0).reshape(2, 3))
@@ -67,8 +81,6 @@ def test_interrupted_builds_leave_nothing(tmp_path: Path) -> None:
 
 
 def test_longest_unused_entries_go_first(tmp_path: Path) -> None:
-    import os
-
     build = Builder()
     cache = Cache(tmp_path, limit_gb=800e-9)
     cache.arrays("x", "old", build)
@@ -119,3 +131,28 @@ def test_environment_names_the_place(
     assert Cache.of_user().folder == tmp_path
     monkeypatch.setenv("DRAKE_LANDING_CACHE", "off")
     assert Cache.of_user().folder is None
+
+
+@pytest.mark.parametrize("text", ["²", "nan", "-1", "1e999", "8 GB"])
+def test_a_size_that_is_none_is_refused(text, monkeypatch) -> None:
+    monkeypatch.setenv("DRAKE_LANDING_CACHE_GB", text)
+    with pytest.raises(InputError, match="DRAKE_LANDING_CACHE_GB: found"):
+        Cache.of_user()
+
+
+def test_not_a_number_is_never_kept(tmp_path: Path) -> None:
+    cache = Cache(tmp_path)
+    found = cache.arrays("modes", "k", lambda: {"a": np.array([1.0, np.nan])})
+    assert np.isnan(found["a"][1])
+    assert cache.find("modes", "k") is None
+
+
+def test_what_a_killed_process_left_goes_after_a_day(tmp_path: Path) -> None:
+    old, new = tmp_path / ".part-old", tmp_path / ".part-new"
+    for place in (old, new):
+        place.mkdir()
+        (place / "a.npy").write_text("half")
+    os.utime(old, (1.0, 1.0))
+    Cache(tmp_path).arrays("modes", "k", Builder())
+    assert new.is_dir()
+    assert not old.exists()

@@ -19,6 +19,7 @@ from drake_landing.reference.d150 import geometry, reference_axis
 from drake_landing.reference.d150.cpacs_reader import CpacsAircraft, Surface, read_cpacs
 from drake_landing.reference.d150.generator import write_model
 from drake_landing.reference.d150.model import AircraftModel
+from fem.errors import InputError
 
 _MATERIALS = {"al2024": "2024", "al7075": "7075"}
 # Ribs that other facts name.
@@ -76,7 +77,7 @@ def write_cpacs_model(
     """
     found = read_cpacs(source)
     facts, tables, taken, defaults = _replacements(found)
-    with _replaced(facts, tables):
+    with _replaced(facts, tables), _named(source, taken):
         model = write_model(level, path, topology)
     return CpacsModel(
         model=model,
@@ -217,6 +218,26 @@ def _spars(surface: Surface) -> dict[str, Any]:
     assert surface.spars is not None
     front, rear = surface.spars
     return {"front_spar": front.tolist(), "rear_spar": rear.tolist()}
+
+
+@contextmanager
+def _named(source: Path, taken: list[str]) -> Iterator[None]:
+    """What the generator cannot build is the file's fault: the built-in facts it can.
+
+    Raises:
+        InputError: names the file and what was taken from it.
+    """
+    try:
+        with np.errstate(invalid="raise", divide="raise", over="raise"):
+            yield
+    except (InputError, OSError, MemoryError):
+        raise
+    except Exception as error:
+        found = str(error).strip() or type(error).__name__
+        raise InputError(
+            f"{source}: no aircraft can be built with its {', '.join(taken)}: {found}; "
+            "expected an airliner's proportions"
+        ) from None
 
 
 @contextmanager

@@ -17,11 +17,21 @@ import numpy.typing as npt
 from lxml import etree
 
 from drake_landing.reference.d150.cpacs_ribs import Plan, read_ribs
-from drake_landing.reference.d150.cpacs_xml import number
+from drake_landing.reference.d150.cpacs_xml import (
+    child,
+    looked_up,
+    number,
+    place,
+    value_of,
+)
 from fem.errors import InputError
 
 Float64 = npt.NDArray[np.float64]
 _STRUCTURE = "componentSegments/componentSegment/structure"
+_ABSENT = 0.0
+_MOST_BYTES = 500_000_000
+_MOST_SECTIONS = 10_000
+_LARGEST = 1000.0  # m: of a section's place and size
 _UPRIGHT = 45.0  # deg of rotation about x
 
 
@@ -76,6 +86,11 @@ def read_cpacs(path: Path) -> CpacsAircraft:
     """
     if not path.is_file():
         raise InputError(f"{path}: no such file")
+    if path.stat().st_size > _MOST_BYTES:
+        raise InputError(
+            f"{path}: {path.stat().st_size / 1e6:,.0f} MB, expected at most "
+            f"{_MOST_BYTES / 1e6:,.0f} MB"
+        )
     try:
         # Entities are not resolved and nothing is fetched: the file may be anybody's.
         parser = etree.XMLParser(
@@ -84,6 +99,8 @@ def read_cpacs(path: Path) -> CpacsAircraft:
         root = etree.parse(str(path), parser).getroot()
     except etree.XMLSyntaxError as error:
         raise InputError(f"{path}:{error.lineno}: no XML: {error.msg}") from None
+    except (OSError, UnicodeError) as error:
+        raise InputError(f"{path}: no XML: {error}") from None
     if etree.QName(root).localname != "cpacs":
         raise InputError(f"{path}: root element <{root.tag}>, expected <cpacs>")
     model = root.find("vehicles/aircraft/model")
@@ -91,13 +108,14 @@ def read_cpacs(path: Path) -> CpacsAircraft:
         raise InputError(f"{path}: no vehicles/aircraft/model")
     try:
         return _aircraft(root, model)
-    except (ValueError, KeyError) as error:
+    except ValueError as error:
         raise InputError(f"{path}: {error}") from None
 
 
 def _aircraft(root: Any, model: Any) -> CpacsAircraft:
     profiles = {
-        p.get("uID"): _list(p, ".//z") for p in root.iterfind(".//wingAirfoils/*")
+        str(p.get("uID")): _list(p, ".//z")
+        for p in root.iterfind(".//wingAirfoils/wingAirfoil")
     }
     version = str(root.findtext("header/cpacsVersion") or "?")
     wings = {str(w.get("uID")): w for w in model.iterfind("wings/wing")}
@@ -115,7 +133,7 @@ def _aircraft(root: Any, model: Any) -> CpacsAircraft:
         ribs=_ribs(wings[level[0].uid], level[0]) if level else None,
         fuselage=None if fuselage is None else _fuselage(fuselage),
         frames={
-            f.get("uID"): number(f, "positionX")
+            str(f.get("uID")): number(f, "positionX")
             for f in model.iterfind(".//frames/frame")
         },
         materials=_materials(root),
@@ -127,7 +145,7 @@ def _surface(wing: Any, profiles: dict[str, Float64], version: str) -> Surface:
     size = _vector(wing, "transformation/scaling", 1.0)
     leading, chord, thickness = [], [], []
     for section in wing.iterfind("sections/section"):
-        element = section.find("elements/element")
+        element = child(section, "elements/element")
         scale = size * _vector(section, "transformation/scaling", 1.0)
         scale = scale * _vector(element, "transformation/scaling", 1.0)
         shift = _vector(section, "transformation/translation", 0.0)
@@ -137,8 +155,17 @@ def _surface(wing: Any, profiles: dict[str, Float64], version: str) -> Surface:
         # Files of CPACS 2 scale the thickness by y where z says nothing.
         by_y = version.startswith("2") and np.isclose(scale[2], scale[0])
         factor = scale[1] if by_y else scale[2]
-        ordinate = profiles[str(element.findtext("airfoilUID"))]
+        uid = element.findtext("airfoilUID")
+        ordinate = looked_up(profiles, uid, element, "airfoilUID")
         thickness.append(float(np.ptp(ordinate)) * factor)
+        _require_section(section, leading[-1], chord[-1], thickness[-1])
+    if not 2 <= len(leading) <= _MOST_SECTIONS:
+        raise ValueError(
+            f"{place(wing)} {wing.get('uID')!r} has {len(leading)} sections, "
+            f"expected 2 to {_MOST_SECTIONS}"
+        )
+    if float(np.ptp(np.array(leading)[:, 1])) <= 0.0:
+        raise ValueError(f"{place(wing)} {wing.get('uID')!r} has no span along y")
     spars = _spars(wing)
     box = _box(spars)
     return Surface(
@@ -151,6 +178,19 @@ def _surface(wing: Any, profiles: dict[str, Float64], version: str) -> Surface:
         spars=None if box is None else (spars[box[0]], spars[box[1]]),
         symmetric=wing.get("symmetry") == "x-z-plane",
     )
+
+
+def _require_section(
+    section: Any, leading: Float64, chord: float, thickness: float
+) -> None:
+    """Raises a ValueError for what is no section of a wing."""
+    if np.abs(leading).max() > _LARGEST:
+        raise ValueError(f"{place(section)} stands {np.abs(leading).max():.3g} m away")
+    if not (0.0 < chord <= _LARGEST and 0.0 < thickness <= chord):
+        raise ValueError(
+            f"{place(section)} has a chord of {chord:.3g} m and a thickness of "
+            f"{thickness:.3g} m, expected 0 < thickness <= chord <= {_LARGEST:g}"
+        )
 
 
 def _box(spars: dict[str, Float64]) -> tuple[str, str] | None:
@@ -208,17 +248,28 @@ def _spars(wing: Any) -> dict[str, Float64]:
     segment = wing.find(f"{_STRUCTURE}/spars")
     if segment is None:
         return {}
-    points = {}
+    points: dict[str | None, tuple[float, float]] = {}
     for point in segment.iterfind("sparPositions/sparPosition"):
-        place = point.find("sparPositionEtaXsi")
-        place = point if place is None else place
-        points[point.get("uID")] = (number(place, "eta"), number(place, "xsi"))
+        inner = point.find("sparPositionEtaXsi")
+        inner = point if inner is None else inner
+        found = (number(inner, "eta"), number(inner, "xsi"))
+        if not all(0.0 <= share <= 1.0 for share in found):
+            raise ValueError(f"{place(inner)} has eta, xsi {found}, expected 0 to 1")
+        points[point.get("uID")] = found
     return {
-        str(spar.get("uID")): np.array(
-            sorted(points[uid.text] for uid in spar.find("sparPositionUIDs"))
-        )
+        str(spar.get("uID")): _spar(spar, points)
         for spar in segment.iterfind("sparSegments/sparSegment")
     }
+
+
+def _spar(spar: Any, points: dict[str | None, tuple[float, float]]) -> Float64:
+    uids = [str(uid.text) for uid in child(spar, "sparPositionUIDs").iterchildren("*")]
+    found = np.array(sorted(looked_up(points, uid, spar, "position") for uid in uids))
+    if len(found) < 2 or np.any(np.diff(found[:, 0]) <= 0.0):
+        raise ValueError(
+            f"{place(spar)}: expected two or more positions along the span"
+        )
+    return found
 
 
 def _fuselage(fuselage: Any) -> Float64 | None:
@@ -226,7 +277,7 @@ def _fuselage(fuselage: Any) -> Float64 | None:
     origin = _vector(fuselage, "transformation/translation", 0.0)
     at, rows = _positions(fuselage), []
     for section in fuselage.iterfind("sections/section"):
-        element = section.find("elements/element")
+        element = child(section, "elements/element")
         scale = _vector(section, "transformation/scaling", 1.0)
         scale = scale * _vector(element, "transformation/scaling", 1.0)
         centre = origin + at[section.get("uID")]
@@ -234,6 +285,8 @@ def _fuselage(fuselage: Any) -> Float64 | None:
         centre = centre + _vector(element, "transformation/translation", 0.0)
         half_width, half_height = abs(scale[1]), abs(scale[2])
         z = centre[2]
+        if max(*np.abs(centre), half_width, half_height) > _LARGEST:
+            raise ValueError(f"{place(section)} is over {_LARGEST:g} m away or wide")
         rows.append([centre[0], 2 * half_width, z - half_height, z + half_height])
     table = np.array(sorted(rows))
     if len(table) < 2:
@@ -248,14 +301,16 @@ def _materials(root: Any) -> dict[str, dict[str, float]]:
         k11, k12 = material.findtext("k11"), material.findtext("k12")
         if not k11 or not k12 or material.findtext("k22"):
             continue
-        a, b = float(k11), float(k12)
+        a, b = number(material, "k11"), number(material, "k12")
+        if not 0.0 < b < a:
+            raise ValueError(f"{place(material)}: k11, k12 {a:g}, {b:g}: no material")
         nu = b / (a + b)
         found[str(material.get("uID"))] = {
             "e": a * (1 + nu) * (1 - 2 * nu) / (1 - nu),
             "nu": nu,
             "rho": number(material, "rho"),
-            "tension": float(material.findtext("sig11") or "nan"),
-            "shear": float(material.findtext("tau12") or "nan"),
+            "tension": number(material, "sig11", _ABSENT) or np.nan,
+            "shear": number(material, "tau12", _ABSENT) or np.nan,
         }
     return found
 
@@ -264,9 +319,12 @@ def _vector(node: Any, path: str, default: float) -> Float64:
     part = None if node is None else node.find(path)
     if part is None:
         return np.full(3, default)
-    return np.array([float(part.findtext(axis) or default) for axis in "xyz"])
+    return np.array([number(part, axis, default) for axis in "xyz"])
 
 
 def _list(node: Any, path: str) -> Float64:
-    text = node.findtext(path) or ""
-    return np.array([float(value) for value in text.split(";") if value.strip()])
+    texts = [t for t in (node.findtext(path) or "").split(";") if t.strip()]
+    found = np.array([value_of(text, node, "z") for text in texts])
+    if not len(found):
+        raise ValueError(f"{place(node)} {node.get('uID')!r} has no ordinates")
+    return found

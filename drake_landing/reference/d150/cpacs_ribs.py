@@ -20,6 +20,7 @@ from drake_landing.reference.d150.cpacs_xml import number
 Float64 = npt.NDArray[np.float64]
 _SAME = 1e-4  # of the span: one rib, not two
 _END = 1e-3  # of the span
+_MOST = 1000  # ribs of a set
 _STEEPEST = 20.0  # deg between a rib and the span axis
 
 
@@ -106,17 +107,18 @@ def _spaced(positioning: Any, plan: Plan, curve: Float64, ends: Float64) -> Floa
     """y of the ribs on their reference: so many, or one every so many metres."""
     if positioning.find("numberOfRibs") is not None:
         count = round(number(positioning, "numberOfRibs"))
-        if count < 1:
+        if not 1 <= count <= _MOST:
             raise ValueError(
                 f"line {positioning.sourceline}: numberOfRibs {count}, expected 1 or "
-                "more"
+                f"more, {_MOST} at most"
             )
         return np.linspace(ends[0], ends[1] if count > 1 else ends[0], count)
     spacing = number(positioning, "spacing")
-    if not spacing > 0.0:
+    length = abs(ends[1] - ends[0])
+    if not spacing > length / _MOST or not spacing > 0.0:
         raise ValueError(
             f"line {positioning.sourceline}: spacing {spacing:g}, expected metres "
-            "above 0, or numberOfRibs"
+            f"above {length / _MOST:.3g}, or numberOfRibs"
         )
     dense = np.linspace(*ends, 201)
     step = np.hypot(np.diff(dense), np.diff(plan.place(curve, dense)))

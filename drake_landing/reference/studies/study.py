@@ -26,6 +26,7 @@ from drake_landing.reference.studies.tables import (
 )
 from drake_landing.reference.studies.transients import TransientTask, respond_all
 from drake_landing.results.comparison import RunLabel, comparison_table
+from fem.files.aside import written_aside
 
 Float64 = npt.NDArray[np.float64]
 
@@ -185,13 +186,14 @@ def _write(study: Study, out: Path) -> None:
     write_csv(out / "spectra.csv", study.spectra)
     write_csv(out / "bases.csv", study.bases)
     write_csv(out / "gaps.csv", study.gaps)
-    np.savez_compressed(
-        out / "histories.npz",
-        time=study.runs[0].time,
-        points=np.array(study.points),
-        runs=np.array([str(run.name) for run in study.runs]),
-        multibody=np.array([run.landing.acceleration for run in study.runs]),
-        transient=np.array([run.transient for run in study.runs]),
-    )
+    with written_aside(out / "histories.npz") as part:
+        np.savez_compressed(
+            part,
+            time=study.runs[0].time,
+            points=np.array(study.points),
+            runs=np.array([str(run.name) for run in study.runs]),
+            multibody=np.array([run.landing.acceleration for run in study.runs]),
+            transient=np.array([run.transient for run in study.runs]),
+        )
     write_study_report(out / "report.html", study)
     write_pictures(out / "figures", study)

@@ -3,15 +3,17 @@
 import errno
 import resource
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-import h5py
 import numpy as np
 import pytest
 
 from fem.files.aside import written_aside
+from fem.files.hdf5_aside import written_hdf5
 
 
 @contextmanager
@@ -33,7 +35,7 @@ def write_text(path: Path) -> None:
 
 
 def write_hdf5(path: Path) -> None:
-    with written_aside(path) as part, h5py.File(part, "w") as file:
+    with written_hdf5(path) as file:
         file["a"] = np.zeros(10**6)
 
 
@@ -47,6 +49,49 @@ def test_a_full_disk_leaves_the_old_file_and_names_it(tmp_path: Path, write) -> 
     assert caught.value.filename == str(path)
     assert [p.name for p in tmp_path.iterdir()] == ["results.h5"]
     assert path.read_text() == "old"
+
+
+MANY = """
+import resource, sys
+from pathlib import Path
+import h5py, numpy as np
+from fem.files.hdf5_aside import written_hdf5
+
+def write(path):
+    with written_hdf5(path) as file:
+        for k in range(40):
+            group = file.create_group(f"group_{k}")
+            group.attrs["columns"] = [f"column {i}" for i in range(60)]
+            group["value"] = np.full((k + 1, 50), float(k))
+            table = group.create_dataset("rows", (40, 30), "f8", chunks=(7, 30))
+            for i in range(0, 40, 5):
+                table[i : i + 5] = i
+
+path = Path(sys.argv[1])
+write(path)
+whole = path.read_bytes()
+for size in range(0, len(whole), len(whole) // 40):
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, resource.RLIM_INFINITY))
+    try:
+        write(path)
+    except OSError as error:
+        assert error.filename == str(path), error
+    else:
+        raise SystemExit(f"{size} of {len(whole)} bytes were enough")
+    assert path.read_bytes() == whole
+    assert list(path.parent.iterdir()) == [path]
+resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY,) * 2)
+write(path)
+with h5py.File(path) as file:
+    assert file["group_39/value"][0, 0] == 39.0
+"""
+
+
+def test_hdf5_outlives_a_disk_that_fills_up_anywhere(tmp_path: Path) -> None:
+    """HDF5 by itself ends the process when it cannot close a file."""
+    line = [sys.executable, "-c", MANY, str(tmp_path / "a.h5")]
+    done = subprocess.run(line, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:

@@ -1,0 +1,136 @@
+"""Attempts in a process of their own: crashes, endless work and memory are seen, too.
+
+    python -m benchmarks.fuzz.trials KIND FIRST COUNT FOLDER
+
+The child tells of every attempt when it begins and how it ended, in lines of JSON; the
+parent starts another one where it falls silent or dies.
+"""
+
+import json
+import os
+import random
+import resource
+import select
+import subprocess
+import sys
+import tempfile
+import time
+import traceback
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from benchmarks.fuzz.outcome import Outcome
+
+SECONDS = 60.0  # of one attempt
+_BYTES = 12_000_000_000  # of address space; the libraries alone take a third
+_START = 120.0  # s until the first line: imports, good files
+
+
+@dataclass(frozen=True, kw_only=True)
+class Attempt:
+    """How a damaged file was taken.
+
+    Attributes:
+        kind, seed: which attempt.
+        outcome: how it ended.
+        text: what is wrong, where it is bad.
+    """
+
+    kind: str
+    seed: int
+    outcome: Outcome
+    text: str = ""
+
+
+def attempts(
+    kind: str, first: int, count: int, kept: Path, *, seconds: float = float("inf")
+) -> Iterator[Attempt]:
+    """Attempts of a kind, one after another.
+
+    Args:
+        kind: of `benchmarks.fuzz.kinds`.
+        first, count: seeds.
+        kept: folder for the files of those that are bad.
+        seconds: begin none after so long.
+    """
+    end, last = time.monotonic() + seconds, first + count
+    while first < last and time.monotonic() < end:
+        with tempfile.TemporaryDirectory() as folder:
+            for attempt in _of_child(kind, first, last - first, Path(folder)):
+                first = attempt.seed + 1
+                if attempt.outcome is Outcome.bad:
+                    _keep(Path(folder), kept / f"{kind}_{attempt.seed}")
+                yield attempt
+                if time.monotonic() >= end:
+                    break
+
+
+def _of_child(kind: str, first: int, count: int, folder: Path) -> Iterator[Attempt]:
+    """Until the child has done all, dies, or takes too long over one."""
+    line = ["benchmarks.fuzz.trials", kind, str(first), str(count), str(folder)]
+    with subprocess.Popen(
+        [sys.executable, "-m", *line],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        cwd=Path(__file__).parents[2],
+    ) as child:
+        assert child.stdout is not None
+        seed, wait = first, _START
+        try:
+            while True:
+                ready, _, _ = select.select([child.stdout], [], [], wait)
+                text = child.stdout.readline() if ready else b""
+                if not text:
+                    why = f"took over {wait:g} s" if not ready else "process died"
+                    child.kill()
+                    status = child.wait()
+                    if ready and status == 0:
+                        return
+                    why += f" (status {status})" if ready else ""
+                    yield Attempt(kind=kind, seed=seed, outcome=Outcome.bad, text=why)
+                    return
+                found = json.loads(text)
+                seed = found["seed"]
+                wait = SECONDS if "outcome" not in found else _START
+                if "outcome" in found:
+                    how = Outcome(found["outcome"])
+                    yield Attempt(kind=kind, seed=seed, outcome=how, text=found["text"])
+        finally:
+            child.kill()
+
+
+def _keep(folder: Path, place: Path) -> None:
+    place.mkdir(parents=True, exist_ok=True)
+    for path in folder.glob("tried*"):
+        if path.is_file() and not path.is_symlink():
+            (place / path.name).write_bytes(path.read_bytes()[:10_000_000])
+
+
+def _child(kind: str, first: int, count: int, folder: Path) -> None:
+    from benchmarks.fuzz.kinds import KINDS
+
+    tell = os.fdopen(os.dup(1), "w", buffering=1)
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    chosen = KINDS[kind]
+    seeds = chosen.seeds(folder)
+    resource.setrlimit(resource.RLIMIT_AS, (_BYTES, resource.RLIM_INFINITY))
+    for seed in range(first, first + count):
+        rng = random.Random(f"{kind}{seed}")
+        source = rng.choice(seeds)
+        place = source.with_name(f"tried_{source.name}")
+        print(json.dumps({"seed": seed}), file=tell)
+        try:
+            chosen.damage(source, rng, place)
+            outcome, text = chosen.outcome(place)
+        except Exception:
+            outcome, text = Outcome.bad, traceback.format_exc(limit=-6)
+        found = {"seed": seed, "outcome": outcome.value, "text": text}
+        print(json.dumps(found), file=tell)
+        if outcome is not Outcome.bad:
+            place.unlink(missing_ok=True)
+
+
+if __name__ == "__main__":
+    _child(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), Path(sys.argv[4]))
