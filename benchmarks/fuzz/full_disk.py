@@ -23,7 +23,7 @@ from benchmarks.fuzz.outcome import Outcome
 
 _ROOT = Path(__file__).parents[2]
 _TESTS = _ROOT / "tests"
-_SPARE = 16_384  # bytes that a file system needs for folders
+_PAGE = 4096  # bytes that a small file takes
 _SECONDS = 600.0
 
 
@@ -126,7 +126,7 @@ def _state(folder: Path) -> dict[str, str]:
 def _size(folder: Path) -> int:
     """Bytes in whole pages, as a file system counts them."""
     sizes = [p.stat().st_size for p in folder.rglob("*") if p.is_file()]
-    return sum((size // 4096 + 2) * 4096 for size in sizes)
+    return sum((size + _PAGE - 1) // _PAGE * _PAGE for size in sizes)
 
 
 @contextlib.contextmanager
@@ -235,7 +235,7 @@ def attempts(
         share = 1.02 * (k + rng.random()) / count
         kept = keeps and not command.caches
         # Each file that is replaced frees the room of the earlier one.
-        room = _SPARE + (total + share * biggest if kept else share * total)
+        room = 2 * _PAGE + (total + share * biggest if kept else share * total)
         disk = small_disk(out, int(room)) if mounts else contextlib.nullcontext()
         with disk:
             if kept:
