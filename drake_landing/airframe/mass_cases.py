@@ -5,6 +5,7 @@ that the case adds, scales and leaves out. Everything that starts from the aircr
 deck, the decks of landing and static cases among it, has that mass.
 """
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,8 +16,9 @@ from drake_landing.case.mass_cases import MassCase, Span, holds_id
 from drake_landing.gears.bodies import mass_points
 from drake_landing.gears.data import LandingGear
 from fem.arrays import Float64
+from fem.deck.case_commands import canonical
 from fem.deck.lexer import RawCard, read_cards, without_cards
-from fem.deck.sections import split_sections
+from fem.deck.sections import Sections, split_sections
 from fem.deck.source import Line, read_source
 from fem.deck.values import real
 from fem.errors import InputError
@@ -37,19 +39,22 @@ def write_mass_case(source: Path, given: MassCase, path: Path, field: str) -> No
         field: of the case, `airframe.mass_cases.<name>`, for messages.
 
     Raises:
-        InputError: ids that no CONM2 has, cards that are none, a deck that cannot be
-            read.
+        InputError: ids that no CONM2 has, cards that are none, a MASSSET that is not
+            there, a deck that cannot be read.
     """
     text = read_source(source)
     sections = split_sections(text.lines, str(source))
-    masses = {
-        int(card.field(1)): card
-        for card in read_cards(sections.bulk).cards
-        if card.name == "CONM2"
-    }
+    cards = read_cards(sections.bulk).cards
+    masses = {int(c.field(1)): c for c in cards if c.name == "CONM2"}
     problems = _unknown(masses, given.remove, f"{field}.remove")
     for i, scaled in enumerate(given.scale):
         problems += _unknown(masses, scaled.elements, f"{field}.scale.{i}.elements")
+    sets = [c.field(1) for c in cards if c.name == "MASSSET"]
+    if given.massset is not None and str(given.massset) not in sets:
+        problems.append(
+            f"{field}.massset: found {given.massset}, expected a MASSSET of "
+            f"{source.name}: {', '.join(sets) or 'it has none'}"
+        )
     added: list[Line] = []
     if given.add is not None:
         added = list(read_source(given.add).lines)
@@ -65,20 +70,37 @@ def write_mass_case(source: Path, given: MassCase, path: Path, field: str) -> No
     def changed(card: RawCard) -> bool:
         return card.name == "CONM2" and factors[int(card.field(1))] != 1.0
 
-    head = text.lines[: len(text.lines) - len(sections.bulk)] if sections.bulk else []
+    scaled = [
+        _scaled(masses[number], factor)
+        for number, factor in factors.items()
+        if factor not in (0.0, 1.0)
+    ]
     with written_aside(path) as part, part.open("w", encoding="utf-8") as file:
-        file.writelines(f"{line.text}\n" for line in head)
-        bulk = without_cards(sections.bulk, changed)
-        file.writelines(f"{line.text}\n" for line in bulk)
-        for number, factor in factors.items():
-            if factor not in (0.0, 1.0):
-                file.write(_scaled(masses[number], factor) + "\n")
-        file.writelines(
-            f"{line.text}\n"
-            for line in added
-            if not line.text.upper().startswith("ENDDATA")
-        )
-        file.write("ENDDATA\n")
+        lines = [
+            *_head(sections, given.massset),
+            *(x.text for x in without_cards(sections.bulk, changed)),
+            *scaled,
+            *(x.text for x in added if not x.text.upper().startswith("ENDDATA")),
+        ]
+        for begin, others in sections.parts():
+            own = without_cards(others, lambda _: False)
+            lines += [begin, *(x.text for x in own)]
+        file.writelines(f"{line}\n" for line in (*lines, "ENDDATA"))
+
+
+def _head(sections: Sections, massset: int | None) -> Iterator[str]:
+    """Lines up to BEGIN BULK; a MASSSET takes the place of those of the deck."""
+    if not sections.has_control and massset is None and not sections.in_parts:
+        return
+    yield from (line.text for line in sections.executive)
+    yield "CEND"
+    if massset is not None:
+        yield f"MASSSET = {massset}"
+    for line in sections.case_control:
+        word = re.split(r"[\s(=]", line.text.strip().upper())[0]
+        if massset is None or canonical(word) != "MASSSET":
+            yield line.text
+    yield "BEGIN BULK"
 
 
 def _factor(given: MassCase, number: int) -> float:

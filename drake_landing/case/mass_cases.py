@@ -1,11 +1,14 @@
 """Mass cases: what each adds to the deck's point masses, or takes from them."""
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from drake_landing.case.section import Section
+from fem.deck.mass_increments import masssets_of
+from fem.errors import InputError, nearest
 
 Span = tuple[int, int]
 
@@ -24,6 +27,11 @@ class MassCase(Section):
 
     deck: Path | None = Field(
         default=None, description="another deck, relative to the case file"
+    )
+    massset: int | None = Field(
+        default=None,
+        gt=0,
+        description="MASSSET of the deck, which combines its BEGIN MASSID sections",
     )
     add: Path | None = Field(
         default=None, description="file of CONM2 that are added, relative to the case"
@@ -69,17 +77,21 @@ def holds_id(spans: tuple[int | Span, ...], number: int) -> bool:
     )
 
 
-def known_mass_case(name: str | None, cases: dict[str, Any]) -> str | None:
-    """The name, where there is such a mass case.
+def mass_case_of(
+    name: str, cases: Mapping[str, MassCase], deck: Path | None
+) -> MassCase:
+    """A mass case by its name: one of the case file, or a MASSSET of the deck.
 
     Raises:
-        ValueError: there is none.
+        InputError: there is none of that name, or the deck cannot be read.
     """
-    from fem.errors import nearest
-
-    if name is not None and name not in cases:
-        known = ", ".join(cases) or "none, for mass_cases is empty"
-        raise ValueError(
-            f"mass_case: found '{name}', expected one of {known}{nearest(name, cases)}"
-        )
-    return name
+    if name in cases:
+        return cases[name]
+    known = masssets_of(deck) if deck is not None and deck.is_file() else {}
+    if name in known:
+        return MassCase(massset=known[name])
+    names = [*cases, *known]
+    listed = ", ".join(names) or "none: neither mass_cases nor MASSSET of the deck"
+    raise InputError(
+        f"mass_case: found '{name}', expected one of {listed}{nearest(name, names)}"
+    )

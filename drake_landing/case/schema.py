@@ -29,7 +29,7 @@ from drake_landing.case.bushing import Bushing
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.labels import Label
-from drake_landing.case.mass_cases import MassCase, known_mass_case
+from drake_landing.case.mass_cases import MassCase, mass_case_of
 from drake_landing.case.parts import Parts
 from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
@@ -236,8 +236,9 @@ class Airframe(Section):
     )
     mass_case: str | None = Field(
         default=None,
-        description="which of mass_cases; default the deck as it is. In a campaign an "
-        "axis like others: airframe.mass_case: [full, empty]",
+        description="which of mass_cases, or a MASSSET of the deck, by the labels of "
+        "its BEGIN MASSID sections or as MASSSET 11; default the deck as it is. In a "
+        "campaign an axis like others: airframe.mass_case: [full, empty]",
     )
     steady: Steady | None = Field(
         default=None,
@@ -269,7 +270,9 @@ class Airframe(Section):
             raise ValueError(
                 f"give one of `model` ({names}), `deck` (a file) or `matrices`"
             )
-        known_mass_case(self.mass_case, self.mass_cases)
+        if self.mass_case and not self.matrices:
+            with include_reach(self.include_paths):
+                mass_case_of(self.mass_case, self.mass_cases, self.deck)
         if self.mass_case and self.matrices:
             raise ValueError("mass_case: found one with `matrices`, expected `deck`")
         if self.steady and self.model:

@@ -11,6 +11,7 @@ from drake_landing.airframe.mass_cases import check_target, write_mass_case
 from drake_landing.airframe.steady import steady_flight
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.damping import AirframeDamping
+from drake_landing.case.mass_cases import mass_case_of
 from drake_landing.case.scenario import Lift, Scenario
 from drake_landing.case.schema import Airframe, Case, Matrices
 from drake_landing.case.steady import Steady
@@ -24,6 +25,7 @@ from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
 from fem.errors import InputError, nearest
+from fem.files.escaping import file_name
 from fem.model.structure import Structure
 
 
@@ -98,9 +100,9 @@ def _with_mass_case(airframe: Airframe, deck: Path, out: Path) -> Path:
     """The deck of the mass case, written to `out`, or the deck itself."""
     if airframe.mass_case is None:
         return deck
-    given = airframe.mass_cases[airframe.mass_case]
+    given = mass_case_of(airframe.mass_case, airframe.mass_cases, deck)
     out.mkdir(parents=True, exist_ok=True)
-    path = out / f"{deck.stem}_{airframe.mass_case}.bdf"
+    path = out / f"{deck.stem}_{file_name(airframe.mass_case)}.bdf"
     field = f"airframe.mass_cases.{airframe.mass_case}"
     write_mass_case(given.deck or deck, given, path, field)
     return path
@@ -110,9 +112,9 @@ def _mass_check(
     airframe: Airframe, gears: tuple[LandingGear, ...]
 ) -> Callable[[Structure], None] | None:
     """Whether the mass case weighs what it should."""
-    if airframe.mass_case is None:
+    given = airframe.mass_cases.get(airframe.mass_case or "")
+    if given is None:
         return None
-    given = airframe.mass_cases[airframe.mass_case]
     field = f"airframe.mass_cases.{airframe.mass_case}"
     return partial(check_target, gears=gears, given=given, field=field)
 

@@ -7,7 +7,7 @@ every attachment node is one TLOAD1 with its DAREA, in the node's displacement f
 and TABLED1. Real numbers are written in large fields with ten digits.
 """
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from pathlib import Path
 from textwrap import wrap
 
@@ -16,8 +16,8 @@ import numpy.typing as npt
 
 from drake_landing.landing.handover import AttachmentLoads
 from fem.deck.case_control import Subcase
-from fem.deck.lexer import read_cards, without_cards
-from fem.deck.sections import split_sections
+from fem.deck.lexer import RawCard, read_cards, without_cards
+from fem.deck.sections import Sections, split_sections
 from fem.deck.source import Line, read_source
 from fem.errors import InputError
 from fem.files.aside import written_aside
@@ -66,8 +66,8 @@ def transient_deck(
     """
     sections = split_sections(read_source(source).lines, str(source))
     params = params or {}
-    bulk = without_cards(
-        until_enddata(sections.bulk),
+    bulk, parts = model_lines(
+        sections,
         lambda card: (
             card.name in left_out or (card.name == "PARAM" and card.field(1) in dropped)
         ),
@@ -104,6 +104,7 @@ def transient_deck(
         yield "*"
     yield "$ The model"
     yield from (line.text for line in bulk)
+    yield from parts
     yield "ENDDATA"
 
 
@@ -115,13 +116,32 @@ def write_transient_deck(path: Path, lines: Iterable[str]) -> None:
 
 def model_selections(subcase: Subcase) -> list[str]:
     """Case control lines of what belongs to the model rather than to its loading."""
-    names = ("spc", "mpc", "nsm", "suport1", "k2gg", "m2gg", "b2gg")
+    names = ("spc", "mpc", "nsm", "massset", "suport1", "k2gg", "m2gg", "b2gg")
     names += ("k2pp", "m2pp", "b2pp")
     return [
         f"{name.upper()} = {getattr(subcase, name)}"
         for name in names
         if getattr(subcase, name)
     ]
+
+
+def model_lines(
+    sections: Sections, drop: Callable[[RawCard], bool]
+) -> tuple[list[Line], list[str]]:
+    """Main bulk data, and lines of the sections after it, without ENDDATA.
+
+    Args:
+        sections: of the deck.
+        drop: cards that are left out.
+
+    Raises:
+        InputError: an INCLUDE is not there.
+    """
+    parts = []
+    for begin, lines in sections.parts():
+        own = without_cards(until_enddata(lines), drop)
+        parts += [begin, *(line.text for line in own)]
+    return without_cards(until_enddata(sections.bulk), drop), parts
 
 
 def until_enddata(lines: Sequence[Line]) -> list[Line]:

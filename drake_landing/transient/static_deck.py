@@ -13,10 +13,9 @@ from textwrap import wrap
 
 import numpy as np
 
-from drake_landing.transient.deck import free_ids, model_selections, until_enddata
+from drake_landing.transient.deck import free_ids, model_lines, model_selections
 from fem.algebra.statics import determinate_rows
 from fem.arrays import Float64
-from fem.deck.lexer import without_cards
 from fem.deck.sections import split_sections
 from fem.deck.source import read_source
 from fem.deck.units import units_of
@@ -84,8 +83,8 @@ def _lines(
 ) -> Iterator[str]:
     sections = split_sections(read_source(source).lines, str(source))
     left_out: Collection[str] = structure.deck.ignored
-    bulk = without_cards(
-        until_enddata(sections.bulk),
+    bulk, parts = model_lines(
+        sections,
         lambda read: (
             read.name in left_out
             or (read.name == "PARAM" and read.field(1).upper() == "INREL")
@@ -120,6 +119,7 @@ def _lines(
         yield from _cards(structure, units, first + 2 + k, case.load)
     yield "$ The model"
     yield from (line.text for line in bulk)
+    yield from parts
     yield "ENDDATA"
 
 

@@ -35,6 +35,7 @@ NUMBERS = {
     "SUPORT1": "suport1",
     "SDAMPING": "sdamping",
     "NSM": "nsm",
+    "MASSSET": "massset",
     "STATSUB": "statsub",
     "DEFORM": "deform",
 }

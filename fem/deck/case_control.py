@@ -45,6 +45,7 @@ class Subcase:
     suport1: int = 0
     sdamping: int = 0
     nsm: int = 0
+    massset: int = 0
     statsub: int = 0
     deform: int = 0
     temperature: int = 0

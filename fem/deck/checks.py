@@ -165,6 +165,7 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
     ("tstep", ("TSTEP",), _TRANSIENT),
     ("method", ("EIGRL",), _MODAL),
     ("nsm", ("NSM", "NSML", "NSMADD"), ()),
+    ("massset", ("MASSSET",), ()),
 )
 
 # Cards that combine sets: attribute of the subcase, column, tables of the members.

@@ -28,6 +28,7 @@ class Deck:
         ignored: names of unsupported cards that the user wanted left out, and that
             the deck has.
         superelements: bulk data of BEGIN SUPER=n sections by n.
+        increments: elements of BEGIN MASSID=n sections by n, on the points of the deck.
     """
 
     path: Path
@@ -39,6 +40,7 @@ class Deck:
     notices: tuple[str, ...] = ()
     ignored: tuple[str, ...] = ()
     superelements: "Mapping[int, Deck]" = field(default_factory=dict)
+    increments: "Mapping[int, Deck]" = field(default_factory=dict)
 
     def param(self, name: str) -> Value:
         """Value of a parameter, Nastran's default where the deck does not give it.

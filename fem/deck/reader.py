@@ -7,6 +7,7 @@ that one faulty card hides no other. All problems of a deck are reported at once
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from fem.deck.design import set_initial_values
 from fem.deck.executive import read_executive
 from fem.deck.fields import Fields
 from fem.deck.lexer import Bulk, RawCard, read_cards
+from fem.deck.mass_increments import POINTS, check_combinations, set_aside
 from fem.deck.parameters import read_parameters
 from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
@@ -122,13 +124,16 @@ def read_deck(
         notices += whole.notices
         if not problems:
             problems += check(deck)
+    increments = _increments(deck, sections, ignore, problems, notices)
+    if not problems:
+        problems += check_combinations(replace(deck, increments=increments))
     if not problems:
         found = check_selected(deck, executive.sol, parts.values())
         problems += found.problems
         notices += found.notices
     if problems:
         raise InputError(problems)
-    if sections.has_control and not bulk.has_enddata and not has_parts:
+    if sections.has_control and not bulk.has_enddata and not sections.in_parts:
         notices.append(f"{path}: no ENDDATA; the deck may be cut off")
     return Deck(
         path=path,
@@ -140,6 +145,7 @@ def read_deck(
         notices=tuple(dict.fromkeys(notices)),
         ignored=deck.ignored,
         superelements=parts,
+        increments=increments,
     )
 
 
@@ -277,4 +283,29 @@ def _superelements(
         decks[number] = Deck(
             path=path, cards=deck.cards, params=deck.params, notices=tuple(notices)
         )
+    return decks
+
+
+def _increments(
+    deck: Deck,
+    sections: Sections,
+    ignore: Collection[str],
+    problems: list[str],
+    notices: list[str],
+) -> Mapping[int, Deck]:
+    """Decks of the BEGIN MASSID=n sections, on the points of the whole deck."""
+    decks = {}
+    for number, section in sections.increments.items():
+        bulk = read_cards(section.lines)
+        problems += bulk.problems
+        groups: dict[str, list[RawCard]] = {}
+        for card in set_aside(bulk.cards, number, notices):
+            groups.setdefault(card.name, []).append(card)
+        _set_aside(groups, {*ignore} & {*groups}, problems, notices)
+        tables = make_tables(groups, _external, problems, notices)
+        tables |= {name: deck.cards[name] for name in POINTS}
+        part = Deck(path=deck.path, cards=tables, params=deck.params)
+        if not problems:
+            problems += check(part, partial=True)
+        decks[number] = part
     return decks

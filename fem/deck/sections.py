@@ -1,15 +1,31 @@
-"""The sections of a deck: executive control, case control, bulk data, superelements."""
+"""The sections of a deck: executive control, case control, bulk data, superelements,
+mass increments.
+"""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from fem.deck.source import Line
 from fem.errors import InputError
 
 _CEND = re.compile(r"\s*CEND\b", re.I)
-_BEGIN = re.compile(r"\s*BEGIN\b\s*(?:BULK)?\s*(?:SUPER\s*=?\s*(\d{1,9}))?(.*)$", re.I)
+_BEGIN = re.compile(r"\s*BEGIN\b\s*(?:BULK)?\s*(.*)$", re.I)
+# What a section is for, where it is not the main bulk data.
+_PART = re.compile(
+    r"(SUPER|MASSID)\s*=?\s*(\d{1,9})"
+    r"(?:\s*,?\s*LABEL\s*=?\s*('[^']*'|[^\s$]+))?\s*(.*)$",
+    re.I,
+)
 _SOL = re.compile(r"\s*SOL\b", re.I)
+
+
+@dataclass
+class Increment:
+    """Bulk data of BEGIN MASSID = n with its LABEL."""
+
+    label: str = ""
+    lines: list[Line] = field(default_factory=list)
 
 
 @dataclass
@@ -20,8 +36,22 @@ class Sections:
     case_control: list[Line] = field(default_factory=list)
     bulk: list[Line] = field(default_factory=list)
     superelements: dict[int, list[Line]] = field(default_factory=dict)
+    increments: dict[int, Increment] = field(default_factory=dict)
     problems: list[str] = field(default_factory=list)
     has_control: bool = False
+
+    @property
+    def in_parts(self) -> bool:
+        """There are sections after the main bulk data."""
+        return bool(self.superelements or self.increments)
+
+    def parts(self) -> Iterator[tuple[str, list[Line]]]:
+        """How each section after the main bulk data begins, and its lines."""
+        for number, lines in self.superelements.items():
+            yield f"BEGIN SUPER={number}", lines
+        for number, increment in self.increments.items():
+            label = f" LABEL='{increment.label}'" if increment.label else ""
+            yield f"BEGIN MASSID={number}{label}", increment.lines
 
 
 def split_sections(lines: Sequence[Line], shown: str) -> Sections:
@@ -38,8 +68,10 @@ def split_sections(lines: Sequence[Line], shown: str) -> Sections:
         (k for k, x in enumerate(lines) if k > cend and _BEGIN.match(x.text)), -1
     )
     sections = Sections(has_control=cend >= 0 or begin >= 0)
+    if begin >= 0 and cend < 0 and _of_part(lines[begin]):  # bulk data alone, parts
+        sections.has_control = False
     if not sections.has_control:
-        sections.bulk = list(lines)
+        _split_bulk(lines, sections)
         return sections
     if begin < 0:
         raise InputError(
@@ -68,17 +100,36 @@ def _split_bulk(lines: Sequence[Line], sections: Sections) -> None:
         match = _BEGIN.match(line.text)
         if match is None:
             target.append(line)
-            continue
-        number, rest = match.groups()
-        if rest.strip() and not rest.strip().startswith("$"):
-            sections.problems.append(
-                f"{line.file}:{line.number}: {line.text.strip()} is not supported"
-            )
-        target = (
-            sections.superelements.setdefault(int(number), [])
-            if number and int(number)
-            else sections.bulk
+        else:
+            target = _section_of(match[1].strip(), line, sections)
+
+
+def _section_of(text: str, line: Line, sections: Sections) -> list[Line]:
+    """Where lines go after BEGIN with that text; what is not known is a problem."""
+    part = _PART.match(text)
+    kind, number, label, rest = part.groups() if part else ("", "0", None, text)
+    if rest.strip() and not rest.strip().startswith("$"):
+        sections.problems.append(
+            f"{line.file}:{line.number}: {line.text.strip()} is not supported"
         )
+    if kind.upper() == "MASSID":
+        if not int(number):
+            sections.problems.append(
+                f"{line.file}:{line.number}: MASSID = 0 is the main bulk data, "
+                "expected a positive number"
+            )
+        increment = sections.increments.setdefault(int(number), Increment())
+        increment.label = (label or increment.label).strip("' ")
+        return increment.lines
+    if int(number):
+        return sections.superelements.setdefault(int(number), [])
+    return sections.bulk
+
+
+def _of_part(line: Line) -> bool:
+    """Whether a line begins a superelement or a mass increment."""
+    match = _BEGIN.match(line.text)
+    return match is not None and _PART.match(match[1].strip()) is not None
 
 
 def _statement(line: Line) -> bool:

@@ -60,7 +60,8 @@ def in_si(deck: Deck, units: Units) -> Deck:
     if problems:
         raise InputError(problems)
     parts = {n: in_si(part, units) for n, part in deck.superelements.items()}
-    return replace(deck, cards=cards, superelements=parts)
+    increments = {n: in_si(part, units) for n, part in deck.increments.items()}
+    return replace(deck, cards=cards, superelements=parts, increments=increments)
 
 
 def _converted(

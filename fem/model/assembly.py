@@ -85,6 +85,22 @@ def assemble(
     )
 
 
+def assemble_mass(
+    points: Points,
+    blocks: Sequence[ElementBlock],
+    *,
+    coupled: bool = False,
+    factor: float = 1.0,
+) -> sp.csr_matrix:
+    """(g, g) mass of elements times a factor, without other matrices."""
+    mass = _Sum(points.size)
+    for block in blocks:
+        m = _finite(block, block.mass(coupled=coupled), "mass")
+        if m is not None:
+            mass.add(_triplets(points, block, factor * m))
+    return mass.symmetric()
+
+
 def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 | None:
     """The matrices of a block (e, n, n) as they are.
 

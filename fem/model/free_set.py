@@ -17,6 +17,7 @@ from fem.arrays import Float64, Int64
 from fem.constraints.support import Support, support
 from fem.elements.quality import quality_notices
 from fem.elements.registry import element_notices
+from fem.model.mass_sets import combination_story
 from fem.model.model import Model
 from fem.model.pieces import describe_pieces, unconnected_pieces
 from fem.model.weight import rigid_modes
@@ -44,16 +45,23 @@ class FreeSet:
     Args:
         model: the model.
         choice: the constraints.
+        like: of the same constraints and stiffness, where it is known.
     """
 
-    def __init__(self, model: Model, choice: ConstraintChoice) -> None:
+    def __init__(
+        self, model: Model, choice: ConstraintChoice, like: FreeSet | None = None
+    ) -> None:
         self.model, self.choice = model, choice
+        self._like = like
 
     def under(self, subcase: Subcase) -> FreeSet:
         """The free set under another subcase: itself, where that chooses alike."""
         model, choice = self.model.under(subcase), ConstraintChoice.of(subcase)
-        same = model is self.model and choice == self.choice
-        return self if same else FreeSet(model, choice)
+        if choice != self.choice:
+            return FreeSet(model, choice)
+        if model is self.model:
+            return self
+        return FreeSet(model, choice, self if model.base is self.model.base else None)
 
     def holding(self, rows: Int64, motions: Float64) -> FreeSet:
         """The same with some freedoms at zero, which stops motions of no consequence.
@@ -77,6 +85,8 @@ class FreeSet:
     @cached_property
     def support(self) -> Support:
         """Constraints, AUTOSPC included, and (f, f) K."""
+        if self._like is not None:
+            return self._like.support
         return support(
             self.model.deck,
             self.model.points,
@@ -126,6 +136,8 @@ class FreeSet:
             *quality_notices(self.model.blocks),
             *describe_pieces(self.pieces),
         ]
+        if self.model.choice.massset:
+            lines.append(combination_story(deck, self.model.choice.massset))
         if autospc is not None and len(autospc.dof):
             lines.append(f"AUTOSPC constrained {autospc.summary(self.model.points)}")
         return lines

@@ -1,12 +1,13 @@
 """`Model`: what a deck describes on the g-set, before anything holds it.
 
-Subcases may choose non-structural mass and matrices of direct input; those that choose
-alike share one model.
+Subcases may choose non-structural mass, matrices of direct input and combinations of
+masses; those that choose alike share one model, those that differ in MASSSET alone all
+but the mass.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -22,6 +23,7 @@ from fem.geometry.points import Points
 from fem.model.assembly import Matrices, assemble
 from fem.model.damping import damping_in_transients, inactive_damping
 from fem.model.direct_input import DirectMatrices, read_direct
+from fem.model.mass_sets import combined_mass
 from fem.model.points import read_points
 from fem.model.weight import Weight, weigh
 
@@ -39,6 +41,7 @@ class ModelChoice:
     k2gg: str
     m2gg: str
     b2gg: str
+    massset: int
 
     @classmethod
     def of(cls, subcase: Subcase) -> ModelChoice:
@@ -53,22 +56,37 @@ class Model:
         deck: the deck.
         choice: what the subcases choose.
         points: of the same deck, where they are known.
+        base: the same model without MASSSET, where it is known.
 
     Attributes:
         deck, choice: as given.
         points: grids and scalar points, numbering of the g-set.
+        base: the model without MASSSET; itself, where none is chosen.
     """
 
     def __init__(
-        self, deck: Deck, choice: ModelChoice, points: Points | None = None
+        self,
+        deck: Deck,
+        choice: ModelChoice,
+        points: Points | None = None,
+        base: Model | None = None,
     ) -> None:
         self.deck, self.choice = deck, choice
         self.points = read_points(deck) if points is None else points
+        self.base = self
+        if choice.massset:
+            self.base = base or Model(deck, replace(choice, massset=0), self.points)
 
     def under(self, subcase: Subcase) -> Model:
         """The model under another subcase: itself, where that chooses alike."""
         choice = ModelChoice.of(subcase)
-        return self if choice == self.choice else Model(self.deck, choice, self.points)
+        if choice == self.choice:
+            return self
+        if replace(choice, massset=0) != self.base.choice:
+            return Model(self.deck, choice, self.points)
+        if not choice.massset:
+            return self.base
+        return Model(self.deck, choice, self.points, self.base)
 
     @cached_property
     def blocks(self) -> list[ElementBlock]:
@@ -77,11 +95,15 @@ class Model:
         Raises:
             InputError: whatever is wrong with any of them.
         """
+        if self.base is not self:
+            return self.base.blocks
         return read_elements(self.deck, self.points, nsm=self.choice.nsm)
 
     @cached_property
     def direct(self) -> DirectMatrices:
         """Matrices of direct input."""
+        if self.base is not self:
+            return self.base.direct
         c = self.choice
         return read_direct(
             self.deck, self.points, k2gg=c.k2gg, m2gg=c.m2gg, b2gg=c.b2gg
@@ -90,6 +112,10 @@ class Model:
     @cached_property
     def matrices(self) -> Matrices:
         """K, M, B and K4 of the g-set."""
+        if self.base is not self:
+            own = self.base.matrices
+            mass = combined_mass(self.deck, self.points, own.mass, self.choice.massset)
+            return replace(own, mass=mass)
         number = self.deck.number
         return assemble(
             self.points,

@@ -1,4 +1,6 @@
-"""Non-structural mass sets: NSM, NSM1 (per length or area), NSML, NSML1 (lumped)."""
+"""Non-structural mass sets: NSM, NSM1 (per length or area), NSML, NSML1 (lumped);
+combinations of masses: MASSSET.
+"""
 
 from typing import Any
 
@@ -52,3 +54,15 @@ def nsml(f: Fields) -> Rows:
 def nsml1(f: Fields) -> Rows:
     row = {"sid": f.integer(1, "SID"), "type": f.word(2, "TYPE")}
     return [{**row, "ids": _ids(f), "value": f.real(3, "VALUE")}]
+
+
+def massset(f: Fields) -> Rows:
+    """MASSSET; Nastran's default of S0 is 0, which would leave no mass at all."""
+    pairs = [(f.real(k, "S", 0.0), f.integer(k + 1, "ID")) for k in f.groups(3, 2)]
+    if not pairs:
+        raise Malformed("field ID1 is blank, expected an integer")
+    factors, ids = zip(*pairs)
+    row = {"sid": f.integer(1, "ID"), "s0": f.real(2, "S0")}
+    if min(row["s0"], *factors) < 0.0:
+        raise Malformed("expected factors >= 0")
+    return [{**row, "factors": factors, "massids": ids}]

@@ -90,4 +90,12 @@ RECORDS = (
     ),
     Card(name="NSML1", group=_GROUP, read=masses.nsml1, table="NSML"),
     Card(name="NSMADD", group=_GROUP, read=lists.add, more="sid:i sets:*"),
+    # s0 times the sum of factors times the masses of BEGIN MASSID = n; 0: the base.
+    Card(
+        name="MASSSET",
+        group=_GROUP,
+        read=masses.massset,
+        more="sid:i s0:f[1] factors:* massids:*",
+        ids="own",
+    ),
 )

@@ -132,3 +132,47 @@ def test_mass_cases_of_the_reference_aircraft_fly_at_1_g(tmp_path, name):
     inertia = rigid.T @ (structure.mass @ rigid)
     motion = np.linalg.solve(inertia, force)
     assert motion == pytest.approx([0, 0, 9.80665, 0, 0, 0], abs=1e-5)
+
+
+def massset_deck(folder: Path) -> None:
+    """The beam aircraft with two fillings of its tanks."""
+    text = (HERE / "tiny_aircraft.bdf").read_text()
+    sets = "MASSSET,901,1.,1.,0,1.,1\nMASSSET,902,1.,1.,0,1.,1\n,0.5,2\n"
+    more = (
+        "BEGIN MASSID=1 LABEL='inner tanks'\nCONM2,9001,24,,30.\n"
+        "BEGIN MASSID=2 LABEL='outer tanks'\nCONM2,9002,34,,20.\n"
+    )
+    assert "ENDDATA" in text
+    (folder / "own.bdf").write_text(text.replace("ENDDATA", f"{sets}{more}ENDDATA"))
+
+
+def massset_case(airframe: str, folder: Path):
+    text = TINY.replace("tiny_aircraft.bdf", "own.bdf")
+    text = text.replace("  select: count 6\n", f"  select: count 6\n{airframe}")
+    return parse_case(text, folder=folder)
+
+
+@pytest.mark.parametrize(
+    ("given", "added"),
+    [
+        ("  mass_case: inner tanks\n", 30.0),
+        ("  mass_case: inner tanks + outer tanks\n", 40.0),
+        ("  mass_case: MASSSET 902\n", 40.0),
+        ("  mass_cases: {full: {massset: 902, remove: []}}\n  mass_case: full\n", 40.0),
+    ],
+)
+def test_masssets_of_a_deck_are_mass_cases_by_their_labels(tmp_path, given, added):
+    massset_deck(tmp_path)
+    plain = prepare_aircraft(massset_case("", tmp_path), tmp_path).structure()
+    aircraft = prepare_aircraft(massset_case(given, tmp_path), tmp_path)
+    total = aircraft.structure().rigid_mass.total
+    assert total == pytest.approx(plain.rigid_mass.total + added, rel=1e-12)
+
+
+def test_an_unknown_massset_lists_those_of_the_deck(tmp_path):
+    massset_deck(tmp_path)
+    with pytest.raises(InputError, match="MASSSET 901, MASSSET 902, inner tanks"):
+        massset_case("  mass_case: inner\n", tmp_path)
+    given = "  mass_cases: {a: {massset: 7}}\n  mass_case: a\n"
+    with pytest.raises(InputError, match="massset: found 7, expected a MASSSET"):
+        prepare_aircraft(massset_case(given, tmp_path), tmp_path)
