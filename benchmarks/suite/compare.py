@@ -21,8 +21,22 @@ class Difference:
     rows: int
 
 
-def differences(ours: dict[Name, Table], theirs: dict[Name, Table]) -> list[Difference]:
-    """One for each table that both have; worst first."""
+# Frequencies below are those of rigid motions, rounding in both, Hz.
+_AT_REST = 1e-5
+# A kind's scale is at least this share of what the other kind's peak does over the
+# length of the model: rotations of translations, moments of forces.
+_LINKED = 1e-3
+
+
+def differences(
+    ours: dict[Name, Table], theirs: dict[Name, Table], length: float = np.inf
+) -> list[Difference]:
+    """One for each table that both have; worst first.
+
+    Args:
+        ours, theirs: tables by name and subcase.
+        length: diagonal of the model, which links rotations and translations.
+    """
     cases = {name[1] for name in ours} & {name[1] for name in theirs}
     found = []
     for name in sorted(set(ours) & set(theirs)):
@@ -31,7 +45,10 @@ def differences(ours: dict[Name, Table], theirs: dict[Name, Table]) -> list[Diff
             continue  # shapes have any sign, and turn within clusters
         pair = _common(ours[name], theirs[name])
         if pair is not None and name[1] in cases:
-            value = _frequency(*pair) if name[0] == "frequency" else _worst(*pair)
+            if name[0] == "frequency":
+                value = _frequency(*pair)
+            else:
+                value = _worst(*pair, _arm(name[0], length))
             found.append(Difference(name[0], name[1], value, pair[0].shape[1]))
     return sorted(found, key=lambda d: -d.value)
 
@@ -52,10 +69,18 @@ def _common(ours: Table, theirs: Table) -> tuple[np.ndarray, np.ndarray] | None:
     return ours.values[:, own][..., mine], theirs.values[:, other][..., its]
 
 
-def _worst(ours: np.ndarray, theirs: np.ndarray) -> float:
+def _arm(name: str, length: float) -> float:
+    """What peaks of the first three columns mean for the others; 0: nothing."""
+    if not np.isfinite(length) or length <= 0.0:
+        return 0.0
+    moved = name in ("displacement", "velocity", "acceleration")
+    return 1.0 / length if moved else length
+
+
+def _worst(ours: np.ndarray, theirs: np.ndarray, arm: float = 0.0) -> float:
     """A column's scale is at least a hundredth of its kind's peak: noise lies below.
 
-    Translations and rotations are of different kinds.
+    Translations and rotations are of different kinds, linked by `arm`.
     """
     known = np.isfinite(ours) & np.isfinite(theirs)
     ours, theirs = np.where(known, ours, 0.0), np.where(known, theirs, 0.0)
@@ -64,6 +89,11 @@ def _worst(ours: np.ndarray, theirs: np.ndarray) -> float:
     scale = np.zeros_like(peak)
     for half in halves:
         scale[half] = np.maximum(peak[half], 1e-2 * peak[half].max(initial=0.0))
+    if len(peak) == 6:
+        first, second = (peak[half].max(initial=0.0) for half in halves)
+        scale[halves[1]] = np.maximum(scale[halves[1]], _LINKED * arm * first)
+        if arm:
+            scale[halves[0]] = np.maximum(scale[halves[0]], _LINKED / arm * second)
     scale = np.maximum(scale, 1e-9 * peak.max(initial=0.0))
     difference = np.abs(ours - theirs).max(axis=(0, 1), initial=0.0)
     away = scale <= 1e-12 * max(1.0, peak.max(initial=0.0))
@@ -75,4 +105,6 @@ def _frequency(ours: np.ndarray, theirs: np.ndarray) -> float:
     """Motions as a rigid body are zero but for rounding."""
     scale = np.maximum(np.abs(theirs), 1e-2 * np.abs(theirs).max(initial=0.0))
     scale = np.where(scale > 0.0, scale, 1.0)
-    return float((np.abs(ours - theirs) / scale).max(initial=0.0))
+    still = (np.abs(ours) < _AT_REST) & (np.abs(theirs) < _AT_REST)
+    ratio = np.where(still, 0.0, np.abs(ours - theirs) / scale)
+    return float(ratio.max(initial=0.0))

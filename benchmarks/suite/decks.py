@@ -9,6 +9,8 @@ from pathlib import Path
 from queue import Empty
 from tempfile import TemporaryDirectory
 
+import numpy as np
+
 from benchmarks.suite.compare import differences
 from benchmarks.suite.tables import Name, Table, read_f06, read_op2
 from fem.deck.reader import read_deck
@@ -88,7 +90,7 @@ def _outcome(deck: Path, reference: Path, name: str) -> Outcome:
     problems = solution_problems(deck)
     if problems:
         raise InputError(problems)
-    ours = _ours(deck)
+    ours, length = _ours(deck)
     try:
         theirs = read_op2(reference) if reference.suffix.lower() == ".op2" else {}
     except ValueError:
@@ -96,7 +98,7 @@ def _outcome(deck: Path, reference: Path, name: str) -> Outcome:
     listing = next(reference.parent.glob(f"{reference.stem}.[fF]06"), None)
     if listing is not None and not _shared(ours, theirs):
         theirs = read_f06(listing)
-    found = differences(ours, theirs)
+    found = differences(ours, theirs, length)
     if not found:
         return Outcome(name, "nothing in common")
     beyond = {
@@ -112,11 +114,13 @@ def _shared(ours: dict[Name, Table], theirs: dict[Name, Table]) -> bool:
     return bool(differences(ours, theirs))
 
 
-def _ours(deck: Path) -> dict[Name, Table]:
-    """Tables of our own results of a deck, as they are in our OP2 file."""
+def _ours(deck: Path) -> tuple[dict[Name, Table], float]:
+    """Tables of our own results of a deck, as in our OP2 file, and its diagonal."""
     with TemporaryDirectory() as folder:
         model = read_deck(deck)
         results = run_deck(model, Path(folder) / "ours.h5")
         path = results.with_suffix(".op2")
-        write_op2(results, Structure(model), path)
-        return read_op2(path)
+        structure = Structure(model)
+        write_op2(results, structure, path)
+        xyz = structure.points.xyz
+        return read_op2(path), float(np.linalg.norm(np.ptp(xyz, axis=0)))

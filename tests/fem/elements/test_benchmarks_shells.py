@@ -101,7 +101,7 @@ def test_twisted_beam():
     reference = [0.005424, 0.001754]
     coarse = twisted_beam(1) / reference
     fine = twisted_beam(4) / reference
-    np.testing.assert_allclose(coarse, [0.9947, 0.9880], atol=1e-3)
+    np.testing.assert_allclose(coarse, [0.9949, 0.9887], atol=1e-3)
     np.testing.assert_allclose(fine, 1.0, atol=3e-3)
     triangular = twisted_beam(4, corners=3) / reference
     np.testing.assert_allclose(triangular, [0.996, 0.975], atol=3e-3)
@@ -164,9 +164,12 @@ def hemisphere(n, corners=4):
 
 
 def test_hemisphere_with_hole():
-    """Reference 0.094; later computations converge to about 0.0935 (0.995)."""
+    """Reference 0.094; later computations converge to about 0.0935 (0.995).
+
+    MSC (1985), N = 4, 8, 12: 1.024, 1.005, 0.998 (from memory).
+    """
     found = [hemisphere(n) for n in (4, 8, 16)]
-    np.testing.assert_allclose(found, [1.001, 1.005, 0.997], atol=3e-3)
+    np.testing.assert_allclose(found, [1.012, 1.006, 0.997], atol=3e-3)
     assert hemisphere(16, 3) == pytest.approx(0.992, abs=3e-3)
 
 

@@ -314,6 +314,33 @@ def test_drilling_stiffness_scales_with_k6rot_and_keeps_rigid_motions_free():
     assert (k1 - k0)[5, 5] == pytest.approx(1e-6 * g * 0.02 * 2.0, rel=1e-3)
 
 
+def test_drilling_acts_about_the_normal_of_the_grid():
+    """Two plates meet at a kink of 24 degrees: the grids between have a mean normal.
+
+    Drilling gives moments about it alone there, and none in rigid motions.
+    """
+    slope = np.tan(np.radians(12.0))
+    x, y = np.array([-1.0, 0.0, 1.5]), np.array([0.0, 0.8])
+    xyz = np.array([[a, b, -slope * abs(a)] for a in x for b in y])
+    conn = np.array([[0, 2, 3, 1], [2, 4, 5, 3]])
+    prop = isotropic_property(E, NU, 0.02)
+    full, bare = (shells(xyz, conn, prop, k6rot=k).stiffness() for k in (100.0, 0.0))
+    drilling = np.zeros((36, 36))
+    for matrix, grids in zip(full - bare, conn):
+        dof = (6 * grids[:, None] + np.arange(6)).ravel()
+        drilling[np.ix_(dof, dof)] += matrix
+    moments = drilling.reshape(6, 6, 36)[2:4, 3:]
+    size = np.abs(moments).max()
+    assert size > 0.0
+    np.testing.assert_allclose(moments[:, :2], 0.0, atol=1e-9 * size)
+    rigid = np.concatenate([np.c_[np.eye(3), np.cross(np.eye(3), p).T] for p in xyz])
+    turned = np.zeros((36, 6))
+    for k in range(6):
+        turned[6 * k : 6 * k + 3] = rigid[3 * k : 3 * k + 3]
+        turned[6 * k + 3 : 6 * k + 6, 3:] = np.eye(3)
+    np.testing.assert_allclose(drilling @ turned, 0.0, atol=1e-8 * size)
+
+
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 10**6), warp=st.floats(-0.2, 0.2))
 def test_sides_of_a_warped_quadrilateral_stretch_in_a_linear_field(seed, warp):
