@@ -46,13 +46,13 @@ class GearSystems:
         elastic_legs: one for all legs that are elastic; None where all are rigid.
     """
 
-    wheel_kinematics: WheelKinematics = field(repr=False)
-    gear_forces: GearForces = field(repr=False)
+    wheel_kinematics: Any = field(repr=False)
+    gear_forces: Any = field(repr=False)
     tires: dict[str, Any] = field(repr=False)
     shock_absorbers: dict[str, Any] = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
-    elastic_legs: ElasticLegs | None = field(default=None, repr=False)
+    elastic_legs: Any = field(default=None, repr=False)
 
     @property
     def by_name(self) -> dict[str, Any]:
@@ -154,7 +154,7 @@ def _add_elastic_legs(
     plant: MultibodyPlant,
     gears: Sequence[LandingGear],
     bodies: Mapping[str, GearBodies],
-) -> ElasticLegs | None:
+) -> Any:
     elastic = [gear for gear in gears if bodies[gear.name].hinges]
     if not elastic:
         return None
@@ -233,7 +233,7 @@ def _connect_gear(
 def _add_side_load(
     builder: DiagramBuilder,
     gear: LandingGear,
-    kinematics: WheelKinematics,
+    kinematics: Any,
     tires: dict[str, Any],
     brakes: dict[str, Any],
     absorber: Any,

@@ -32,10 +32,7 @@ from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
 from systems.attachment.attachment import Attachment, RigidAttachment
 from systems.attachment.bushing_attachment import BushingAttachment
-from systems.gear.elastic_legs import ElasticLegs
 from systems.gear.energy_budget import AddEnergyBudget, EnergyBudget
-from systems.gear.gear_forces import GearForces
-from systems.gear.wheel_kinematics import WheelKinematics
 from systems.runway.runway import Runway
 
 _LOGGED = {
@@ -91,13 +88,13 @@ class LandingDiagram:
     plant: MultibodyPlant = field(repr=False)
     airframe: FlexibleAirframe = field(repr=False)
     attachment: Attachment = field(repr=False)
-    wheel_kinematics: WheelKinematics = field(repr=False)
-    gear_forces: GearForces = field(repr=False)
+    wheel_kinematics: Any = field(repr=False)
+    gear_forces: Any = field(repr=False)
     tires: dict[str, Any] = field(repr=False)
     shock_absorbers: dict[str, Any] = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
-    elastic_legs: ElasticLegs | None = field(repr=False)
+    elastic_legs: Any = field(repr=False)
     bodies: dict[str, GearBodies] = field(repr=False)
     lift: DistributedLoad | None = field(repr=False)
     energy_budget: EnergyBudget | None = field(repr=False)
@@ -228,7 +225,7 @@ def _connect_attachment(
     plant: MultibodyPlant,
     airframe: FlexibleAirframe,
     held: Attachment,
-    forces: GearForces,
+    forces: Any,
 ) -> None:
     _connect(builder, plant, "state", held, "plant_state")
     for port in ("pose", "velocity", "free_acceleration", "compliance"):

@@ -18,12 +18,16 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint
-from pydrake.systems.framework import LeafSystem, ValueProducer
+from pydrake.systems.framework import LeafSystem_, ValueProducer
+from pydrake.systems.scalar_conversion import TemplateSystem
 
-from systems.tools.compiled import compiled
+from systems.tools.compiled import compiled_law
+from systems.tools.scalar import Scalar
+from systems.tools.template import default_instantiation
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -93,73 +97,86 @@ def _require_definite(name: str, matrices: Float64, least: float) -> None:
         )
 
 
-class ElasticLegs(LeafSystem):
-    """The elastic hinges of all legs of an aircraft.
+@TemplateSystem.define("ElasticLegs_", T_list=(float, AutoDiffXd))
+def ElasticLegs_(T):
+    law = elastic_forces_of_floats if T is float else elastic_forces
 
-    | port | size | unit | frame and sign |
-    |---|---|---|---|
-    | in `plant_state` | nq + nv | | positions and velocities of the plant |
-    | out `generalized_force` | nv | N, N m | on hinges and struts |
-    | out `deflection_<gear>` | 3 | rad | fore and aft (lower end aft > 0), to the side
-      (lower end to starboard > 0), torsion (about the strut axis, up); zero where the
-      leg has no such hinge |
-    | out `energy` | 1 | J | stored |
-    | out `dissipated_power` | 1 | W | >= 0 |
+    class Impl(LeafSystem_[T]):
+        """The elastic hinges of all legs of an aircraft.
 
-    Args:
-        plant: finalised.
-        legs: by gear.
-        kinds: of each gear, for each hinge 0 (fore and aft), 1 (side), 2 (torsion).
-    """
+        | port | size | unit | frame and sign |
+        |---|---|---|---|
+        | in `plant_state` | nq + nv | | positions and velocities of the plant |
+        | out `generalized_force` | nv | N, N m | on hinges and struts |
+        | out `deflection_<gear>` | 3 | rad | fore and aft (lower end aft > 0), to the
+          side (lower end to starboard > 0), torsion (about the strut axis, up); zero
+          where the leg has no such hinge |
+        | out `energy` | 1 | J | stored |
+        | out `dissipated_power` | 1 | W | >= 0 |
 
-    def __init__(
-        self,
-        plant: MultibodyPlant,
-        legs: Mapping[str, ElasticLeg],
-        kinds: Mapping[str, Sequence[int]],
-    ) -> None:
-        super().__init__()
-        nq, self._nv = plant.num_positions(), plant.num_velocities()
-        self._laws = _laid_out(list(legs.values()), nq)
-        self._state = self.DeclareVectorInputPort(
-            "plant_state", plant.num_multibody_states()
-        )
-        self._law: Any = self.DeclareCacheEntry(
-            "law",
-            ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
-            {self._state.ticket()},
-        )
-        law = {self._law.ticket()}
-        vector = self.DeclareVectorOutputPort
-        vector("generalized_force", self._nv, self._calc_force, law)
-        vector("energy", 1, self._number_port(1), law)
-        vector("dissipated_power", 1, self._number_port(2), law)
-        for name, leg in legs.items():
-            rows = [joint.position_start() for joint in leg.hinges]
-            port = self._deflection_port(rows, list(kinds[name]))
-            vector(f"deflection_{name}", 3, port, {self._state.ticket()})
+        Args:
+            plant: finalised.
+            legs: by gear.
+            kinds: of each gear, for each hinge 0 (fore and aft), 1 (side), 2 (torsion).
+        """
 
-    def _calc_law(self, context, value) -> None:
-        value.set_value(
-            elastic_forces(self._state.Eval(context), *self._laws, self._nv)
-        )
+        def _construct(
+            self,
+            plant: MultibodyPlant,
+            legs: Mapping[str, ElasticLeg],
+            kinds: Mapping[str, Sequence[int]],
+            converter=None,
+        ):
+            LeafSystem_[T].__init__(self, converter=converter)
+            self._given = plant, dict(legs), dict(kinds)
+            nq, self._nv = plant.num_positions(), plant.num_velocities()
+            self._laws = _laid_out(list(legs.values()), nq)
+            self._state: Any = self.DeclareVectorInputPort(
+                "plant_state", plant.num_multibody_states()
+            )
+            self._law: Any = self.DeclareCacheEntry(
+                "law",
+                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
+                {self._state.ticket()},
+            )
 
-    def _calc_force(self, context, output) -> None:
-        output.SetFromVector(self._law.Eval(context)[0])
+            def declare(name, size, calc, ticket):
+                self.DeclareVectorOutputPort(
+                    name, size, calc, prerequisites_of_calc={ticket}
+                )
 
-    def _number_port(self, i: int):
-        def calc(context, output):
-            output.SetAtIndex(0, self._law.Eval(context)[i])
+            declare("generalized_force", self._nv, self._calc_force, self._law.ticket())
+            for i, name in enumerate(("energy", "dissipated_power"), start=1):
+                declare(name, 1, self._number_port(i), self._law.ticket())
+            for name, leg in legs.items():
+                rows = [joint.position_start() for joint in leg.hinges]
+                port = self._deflection_port(rows, list(kinds[name]))
+                declare(f"deflection_{name}", 3, port, self._state.ticket())
 
-        return calc
+        def _construct_copy(self, other, converter=None):
+            Impl._construct(self, *other._given, converter=converter)
 
-    def _deflection_port(self, rows: list[int], kinds: list[int]):
-        def calc(context, output):
-            angles = np.zeros(3)
-            angles[kinds] = self._state.Eval(context)[rows]
-            output.SetFromVector(angles)
+        def _calc_law(self, context, value):
+            value.set_value(law(self._state.Eval(context), *self._laws, self._nv))
 
-        return calc
+        def _calc_force(self, context, output):
+            output.SetFromVector(self._law.Eval(context)[0])
+
+        def _number_port(self, i: int):
+            def calc(context, output):
+                output.SetAtIndex(0, self._law.Eval(context)[i])
+
+            return calc
+
+        def _deflection_port(self, rows: list[int], kinds: list[int]):
+            def calc(context, output):
+                angles = np.array([T(0.0)] * 3)
+                angles[kinds] = self._state.Eval(context)[rows]
+                output.SetFromVector(angles)
+
+            return calc
+
+    return Impl
 
 
 def _laid_out(legs: list[ElasticLeg], nq: int) -> tuple[Any, ...]:
@@ -183,17 +200,16 @@ def _laid_out(legs: list[ElasticLeg], nq: int) -> tuple[Any, ...]:
     return places, ranges, matrices, play, nq
 
 
-@compiled
 def elastic_forces(
-    state: Float64,
+    state: Any,
     places: Int64,
     ranges: Float64,
     matrices: Float64,
     free_play: Float64,
     nq: int,
     nv: int,
-) -> tuple[Float64, float, float]:
-    """What the hinges of all legs do.
+) -> tuple[Any, Scalar, Scalar]:
+    """What the hinges of all legs do; floats or AutoDiffXd.
 
     Args:
         state: (nq + nv,) of the plant.
@@ -207,40 +223,54 @@ def elastic_forces(
     Returns:
         (nv,) generalised forces, N m and N; stored energy, J; dissipated power, W.
     """
-    force = np.zeros(nv)
-    energy, power = 0.0, 0.0
+    zero = 0.0 * state[0]
+    force, e, rate = np.full(nv, zero), np.full(3, zero), np.full(3, zero)
+    energy, power = zero, zero
     last = matrices.shape[2] - 1
-    e, rate = np.zeros(3), np.zeros(3)
     for i in range(len(places)):
         position, velocity = places[i, 0], places[i, 1]
         scale = last / (ranges[i, 1] - ranges[i, 0])
         x = (state[position[0]] - ranges[i, 0]) * scale
-        inside = 0.0 <= x < last
-        x = min(max(x, 0.0), float(last))
-        at = min(int(x), last - 1)
-        x -= at
+        inside = x >= 0.0 and x < last
+        if not inside:
+            x = zero if x < 0.0 else zero + last
+        at = 0
+        while at < last - 1 and x >= at + 1:
+            at += 1
+        x = x - at
         for a in range(3):
-            e[a] = rate[a] = 0.0
+            e[a] = rate[a] = zero
             if position[1 + a] >= 0:
                 angle, play = state[position[1 + a]], free_play[i, a]
-                e[a] = max(angle - play, 0.0) + min(angle + play, 0.0)
+                if angle > play:
+                    e[a] = angle - play
+                elif angle < -play:
+                    e[a] = angle + play
                 rate[a] = state[nq + velocity[1 + a]]
-        slope = 0.0
+        slope = zero
         for a in range(3):
             if position[1 + a] < 0:
                 continue
-            elastic, damped = 0.0, 0.0
+            elastic, damped = zero, zero
             for b in range(3):
                 low, high = matrices[i, 0, at, a, b], matrices[i, 0, at + 1, a, b]
-                elastic += (low + x * (high - low)) * e[b]
-                slope += (high - low) * e[a] * e[b]
+                elastic = elastic + (low + x * (high - low)) * e[b]
+                slope = slope + (high - low) * e[a] * e[b]
                 low, high = matrices[i, 1, at, a, b], matrices[i, 1, at + 1, a, b]
-                damped += (low + x * (high - low)) * rate[b]
-            energy += 0.5 * elastic * e[a]
-            power += damped * rate[a]
+                damped = damped + (low + x * (high - low)) * rate[b]
+            energy = energy + 0.5 * elastic * e[a]
+            power = power + damped * rate[a]
             if e[a] == 0.0 and free_play[i, a] > 0.0:
-                elastic = 0.0
-            force[velocity[1 + a]] -= elastic + damped
+                elastic = zero
+            row = velocity[1 + a]
+            force[row] = force[row] - (elastic + damped)
         if inside:
-            force[velocity[0]] -= 0.5 * slope * scale
+            row = velocity[0]
+            force[row] = force[row] - 0.5 * slope * scale
     return force, energy, power
+
+
+elastic_forces_of_floats = compiled_law(elastic_forces)
+"""The same, compiled."""
+
+ElasticLegs = default_instantiation(ElasticLegs_)

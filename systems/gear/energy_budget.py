@@ -4,105 +4,125 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import (
-    BasicVector,
+    BasicVector_,
     DiagramBuilder,
     LeafSystem,
+    LeafSystem_,
     ValueProducer,
 )
+from pydrake.systems.scalar_conversion import TemplateSystem
+
+from systems.tools.template import default_instantiation
 
 
-class EnergyBudget(LeafSystem):
-    """Kinetic and stored energy of everything, what is lost, less what is supplied.
+@TemplateSystem.define("EnergyBudget_", T_list=(float, AutoDiffXd))
+def EnergyBudget_(T):
+    class Impl(LeafSystem_[T]):
+        """Kinetic and stored energy of everything, what is lost, less what is supplied.
 
-    The integrals are states rather than quadratures of logged powers: slip at spin-up
-    burns several times the sink energy within some hundredths of a second, and only the
-    integrator's own stages follow that closely enough. A state is an energy over
-    `unit`, so that Drake's absolute error test is a relative one.
+        The integrals are states rather than quadratures of logged powers: slip at
+        spin-up burns several times the sink energy within some hundredths of a second,
+        and only the integrator's own stages follow that closely enough. A state is an
+        energy over `unit`, so that Drake's absolute error test is a relative one.
 
-    | port | size | unit | meaning and sign |
-    |---|---|---|---|
-    | in `plant_state` | nq + nv | | positions and velocities of the plant |
-    | in `energy_<name>` for each stored | 1 | J | |
-    | in `power_<name>` for each dissipating | 1 | W | lost, >= 0 |
-    | in `supply_<name>` for each supplying | 1 | W | work of external loads, gained |
-    | out `dissipated` | 1 | J | integral of all lost powers since the start |
-    | out `supplied` | 1 | J | integral of all supplied powers since the start |
-    | out `total` | 1 | J | dissipated - supplied + stored + energy of the plant |
+        | port | size | unit | meaning and sign |
+        |---|---|---|---|
+        | in `plant_state` | nq + nv | | positions and velocities of the plant |
+        | in `energy_<name>` for each stored | 1 | J | |
+        | in `power_<name>` for each dissipating | 1 | W | lost, >= 0 |
+        | in `supply_<name>` for each supplying | 1 | W | of external loads, gained |
+        | out `dissipated` | 1 | J | integral of all lost powers since the start |
+        | out `supplied` | 1 | J | integral of all supplied powers since the start |
+        | out `total` | 1 | J | dissipated - supplied + stored + of the plant |
 
-    Args:
-        plant: finalised; its kinetic and potential energy are part of the budget.
-        stored: names of the systems that store energy.
-        dissipating: names of those that dissipate.
-        supplying: names of those that have external loads.
-        unit: energy that the accuracy of the integrator refers to, J.
+        Args:
+            plant: finalised; its kinetic and potential energy are part of the budget.
+            stored: names of the systems that store energy.
+            dissipating: names of those that dissipate.
+            supplying: names of those that have external loads.
+            unit: energy that the accuracy of the integrator refers to, J.
 
-    Raises:
-        ValueError: unit is not positive.
-    """
+        Raises:
+            ValueError: unit is not positive.
+        """
 
-    def __init__(
-        self,
-        plant: MultibodyPlant,
-        stored: Sequence[str],
-        dissipating: Sequence[str],
-        supplying: Sequence[str] = (),
-        unit: float = 1e5,
-    ) -> None:
-        super().__init__()
-        if not unit > 0:
-            raise ValueError(f"energy budget: unit is {unit} J, expected > 0")
-        self._plant, self._unit = plant, unit
-        declare: Any = self.DeclareVectorInputPort
-        self._state = declare("plant_state", plant.num_multibody_states())
-        self._stored = [declare(f"energy_{name}", 1) for name in stored]
-        self._powers = [declare(f"power_{name}", 1) for name in dissipating]
-        self._supplies = [declare(f"supply_{name}", 1) for name in supplying]
-        self.DeclareContinuousState(BasicVector([0.0, 0.0]))
-        self._context: Any = self.DeclareCacheEntry(
-            "plant_context",
-            ValueProducer(
-                allocate=lambda: Value(plant.CreateDefaultContext()),
-                calc=self._calc_context,
-            ),
-            {self._state.ticket()},
-        )
-        integrals = {self.xc_ticket()}
-        sources = {port.ticket() for port in self._stored} | {self._context.ticket()}
-        vector = self.DeclareVectorOutputPort
-        vector("dissipated", 1, self._calc_dissipated, integrals)
-        vector("supplied", 1, self._calc_supplied, integrals)
-        vector("total", 1, self._calc_total, sources | integrals)
+        def _construct(
+            self,
+            plant: MultibodyPlant,
+            stored: Sequence[str],
+            dissipating: Sequence[str],
+            supplying: Sequence[str] = (),
+            unit: float = 1e5,
+            converter=None,
+        ):
+            LeafSystem_[T].__init__(self, converter=converter)
+            if not unit > 0:
+                raise ValueError(f"energy budget: unit is {unit} J, expected > 0")
+            self._given = plant, stored, dissipating, supplying, unit
+            self._plant = plant if T is float else plant.ToAutoDiffXd()
+            self._unit = unit
+            declare: Any = self.DeclareVectorInputPort
+            self._state = declare("plant_state", plant.num_multibody_states())
+            self._stored = [declare(f"energy_{name}", 1) for name in stored]
+            self._powers = [declare(f"power_{name}", 1) for name in dissipating]
+            self._supplies = [declare(f"supply_{name}", 1) for name in supplying]
+            self.DeclareContinuousState(BasicVector_[T]([0.0, 0.0]))
+            self._context: Any = self.DeclareCacheEntry(
+                "plant_context",
+                ValueProducer(
+                    allocate=lambda: Value(self._plant.CreateDefaultContext()),
+                    calc=self._calc_context,
+                ),
+                {self._state.ticket()},
+            )
+            integrals = {self.xc_ticket()}
+            sources = {port.ticket() for port in self._stored} | {
+                self._context.ticket()
+            }
+            vector = self.DeclareVectorOutputPort
+            vector("dissipated", 1, self._calc_dissipated, integrals)
+            vector("supplied", 1, self._calc_supplied, integrals)
+            vector("total", 1, self._calc_total, sources | integrals)
 
-    def _calc_context(self, context, value) -> None:
-        state = self._state.Eval(context)
-        self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
+        def _construct_copy(self, other, converter=None):
+            Impl._construct(self, *other._given, converter=converter)
 
-    def DoCalcTimeDerivatives(self, context, derivatives) -> None:
-        lost, supplied = (
-            sum(port.Eval(context)[0] for port in ports)
-            for ports in (self._powers, self._supplies)
-        )
-        derivatives.SetFromVector(np.array([lost, supplied]) / self._unit)
+        def _calc_context(self, context, value) -> None:
+            state = self._state.Eval(context)
+            self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
 
-    def _integral(self, context, i: int) -> float:
-        return self._unit * context.get_continuous_state_vector().GetAtIndex(i)
+        def DoCalcTimeDerivatives(self, context, derivatives) -> None:
+            lost, supplied = (
+                sum((port.Eval(context)[0] for port in ports), T(0.0))
+                for ports in (self._powers, self._supplies)
+            )
+            derivatives.SetFromVector(np.array([lost, supplied]) / self._unit)
 
-    def _calc_dissipated(self, context, output) -> None:
-        output.SetAtIndex(0, self._integral(context, 0))
+        def _integral(self, context, i: int) -> Any:
+            return self._unit * context.get_continuous_state_vector().GetAtIndex(i)
 
-    def _calc_supplied(self, context, output) -> None:
-        output.SetAtIndex(0, self._integral(context, 1))
+        def _calc_dissipated(self, context, output) -> None:
+            output.SetAtIndex(0, self._integral(context, 0))
 
-    def _calc_total(self, context, output) -> None:
-        plant_context = self._context.Eval(context)
-        total = self._integral(context, 0) - self._integral(context, 1)
-        total += sum(port.Eval(context)[0] for port in self._stored)
-        total += self._plant.EvalKineticEnergy(plant_context)
-        total += self._plant.EvalPotentialEnergy(plant_context)
-        output.SetAtIndex(0, total)
+        def _calc_supplied(self, context, output) -> None:
+            output.SetAtIndex(0, self._integral(context, 1))
+
+        def _calc_total(self, context, output) -> None:
+            plant_context = self._context.Eval(context)
+            total = self._integral(context, 0) - self._integral(context, 1)
+            total += sum(port.Eval(context)[0] for port in self._stored)
+            total += self._plant.EvalKineticEnergy(plant_context)
+            total += self._plant.EvalPotentialEnergy(plant_context)
+            output.SetAtIndex(0, total)
+
+    return Impl
+
+
+EnergyBudget = default_instantiation(EnergyBudget_)
 
 
 def AddEnergyBudget(
@@ -110,7 +130,7 @@ def AddEnergyBudget(
     plant: MultibodyPlant,
     systems: Sequence[LeafSystem],
     unit: float = 1e5,
-) -> EnergyBudget:
+) -> Any:
     """Adds the system `energy_budget` and connects it.
 
     Args:

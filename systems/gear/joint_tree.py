@@ -48,23 +48,33 @@ class JointTree:
     Args:
         plant: finalised.
         bodies: whose motion is wanted.
+        sliding: joints whose axes are wanted, too.
 
     Raises:
         ValueError: a joint on the way is neither floating (with a quaternion), weld,
             prismatic nor revolute.
     """
 
-    def __init__(self, plant: MultibodyPlant, bodies: Sequence[RigidBody]) -> None:
+    def __init__(
+        self,
+        plant: MultibodyPlant,
+        bodies: Sequence[RigidBody],
+        sliding: Sequence[PrismaticJoint] = (),
+    ) -> None:
         inboard = {
             joint.child_body().index(): joint
             for joint in map(plant.get_joint, plant.GetJointIndices())
         }
         self._links: list[_Link] = []
         places: dict = {plant.world_body().index(): -1}
-        for body in bodies:
+        moved = [joint.child_body() for joint in sliding]
+        for body in (*bodies, *moved):
             self._add(plant, body, inboard, places)
         self._nq, self.nv = plant.num_positions(), plant.num_velocities()
-        self._bodies = np.array([places[b.index()] for b in bodies], dtype=np.int64)
+        self._bodies, self._sliding = (
+            np.array([places[b.index()] for b in group], dtype=np.int64)
+            for group in (bodies, moved)
+        )
         links = self._links
         self._integers = np.array(
             [(k.kind, k.parent, k.position, k.velocity) for k in links], dtype=np.int64
@@ -106,7 +116,7 @@ class JointTree:
         places[body.index()] = len(self._links)
         self._links.append(link)
 
-    def motion(self, state: Float64) -> tuple[Float64, Float64]:
+    def motion(self, state: Float64) -> tuple[Float64, Float64, Float64]:
         """Bodies' motion, and how it depends on the velocities of the plant.
 
         Args:
@@ -114,8 +124,8 @@ class JointTree:
 
         Returns:
             (k, 12) per body: origin p_WB (m), its y axis, v_WB (m/s), ω_WB (rad/s);
-            (6 k, nv) their [angular; linear] velocities per velocity of the plant. All
-            in W.
+            (6 k, nv) their [angular; linear] velocities per velocity of the plant;
+            (s, 3) axes of the sliding joints. All in W.
         """
         return _motion(
             state,
@@ -123,6 +133,7 @@ class JointTree:
             self._fixed,
             self._axes,
             self._bodies,
+            self._sliding,
             self._nq,
             self.nv,
         )
@@ -191,9 +202,10 @@ def _motion(
     fixed: Float64,
     axes: Float64,
     bodies: Int64,
+    sliding: Int64,
     nq: int,
     nv: int,
-) -> tuple[Float64, Float64]:
+) -> tuple[Float64, Float64, Float64]:
     """See `JointTree.motion`."""
     n = len(links)
     pose, joint = np.zeros((n, 3, 4)), np.zeros((n, 3, 4))
@@ -252,4 +264,4 @@ def _motion(
                 arm[:] = place - joint[i, :, 3]
                 _add_cross(axis_W[i], arm, rows[3:, v])
             i = links[i, 1]
-    return out, jacobian
+    return out, jacobian, axis_W[sliding]

@@ -141,7 +141,10 @@ def friction(
     turning = 0.0 * side
     if trail is not None:
         arm = look_up(trail, deflection)
-        arm = arm * look_up(trail_share, sqrt(k_t * k_t + across * across))
+        square = k_t * k_t + across * across
+        # The root of zero has no slope.
+        combined = sqrt(square) if square > 0.0 else 0.0 * square
+        arm = arm * look_up(trail_share, combined)
         sense = travel / sqrt(travel * travel + c.low_speed * c.low_speed)
         turning = -sense * arm * side
     return -share * k_t, side, turning

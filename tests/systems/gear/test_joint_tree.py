@@ -64,7 +64,7 @@ def test_motion_and_jacobian_are_those_of_the_plant(make):
     state = violent_state(plant, 4)
     context = plant.CreateDefaultContext()
     plant.SetPositionsAndVelocities(context, state)
-    motion, jacobian = JointTree(plant, bodies).motion(state)
+    motion, jacobian, _ = JointTree(plant, bodies).motion(state)
     world = plant.world_frame()
     for i, body in enumerate(bodies):
         X, V = (

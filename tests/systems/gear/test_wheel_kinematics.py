@@ -2,8 +2,9 @@
 
 import numpy as np
 from numpy.testing import assert_allclose
+from pydrake.autodiffutils import AutoDiffXd, ExtractValue
 
-from systems.gear.wheel_kinematics import WheelKinematics
+from systems.gear.wheel_kinematics import WheelKinematics, WheelKinematics_
 from tests.systems.small_gears import NAMES, two_gears, violent_state
 
 
@@ -69,3 +70,22 @@ def test_contexts_do_not_share_state():
     assert_allclose(port.Eval(contexts[0].Clone()), first)
     system.GetInputPort("plant_state").FixValue(contexts[0], states[1])
     assert_allclose(port.Eval(contexts[0]), second)
+
+
+def test_kinematics_in_autodiffxd_are_those_of_floats():
+    plant, _, wheels, struts, spins = two_gears()
+    plain = WheelKinematics(plant, wheels, struts, spins)
+    other = plain.ToAutoDiffXd()
+    assert isinstance(other, WheelKinematics_[AutoDiffXd])
+    state = violent_state(plant)
+    contexts = [system.CreateDefaultContext() for system in (plain, other)]
+    plain.GetInputPort("plant_state").FixValue(contexts[0], state)
+    seeded = np.array([AutoDiffXd(x, row) for x, row in zip(state, np.eye(len(state)))])
+    other.GetInputPort("plant_state").FixValue(contexts[1], seeded)
+    for i in range(plain.num_output_ports()):
+        expected, found = (
+            system.get_output_port(i).Eval(context)
+            for system, context in zip((plain, other), contexts)
+        )
+        found = np.atleast_2d(found).reshape(-1, 1)
+        assert_allclose(ExtractValue(found).ravel(), expected, rtol=1e-12, atol=1e-12)

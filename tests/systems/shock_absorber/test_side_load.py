@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from systems.shock_absorber.friction import bearing_reactions
-from systems.shock_absorber.side_load import SideLoad, side_load
+from systems.shock_absorber.side_load import SideLoad, side_load, side_load_of_floats
 
 UP, AXLE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
 
@@ -19,8 +19,12 @@ def _at_ground(force, radius):
 
 def _load(wrenches, offsets, brakes=None, axis=UP, axle=AXLE):
     brakes = np.zeros(len(wrenches)) if brakes is None else np.asarray(brakes)
-    axles = np.tile(axle, (len(wrenches), 1))
-    return side_load(axis, axles, np.array(wrenches), np.array(offsets), brakes)
+    wheel = np.concatenate([np.zeros(3), axle, np.zeros(6)])
+    given = axis, (wheel,) * len(wrenches), tuple(wrenches), np.array(offsets), brakes
+    assert_allclose(
+        side_load(*given), side_load_of_floats(*given), rtol=1e-9, atol=1e-7
+    )
+    return side_load(*given)
 
 
 def test_drag_acts_at_the_axle_and_a_side_force_at_the_ground():
