@@ -30,7 +30,7 @@ def modal_body(modes: int) -> ModalBody:
 
 
 def make_landing(
-    body: ModalBody, modes: int, energy_budget: bool = True, elastic_legs: bool = False
+    body: ModalBody, modes: int, energy_budget: bool = True, gears: str = "paper"
 ) -> LandingDiagram:
     """Its diagram, with the monitoring points of the model.
 
@@ -38,16 +38,16 @@ def make_landing(
         body: of `modal_body(modes)`, or made from it.
         modes: as there.
         energy_budget: with the audit.
-        elastic_legs: those of the reference aircraft; else rigid ones, as in the paper.
+        gears: `paper`, `legs` (the same on elastic legs) or `d150`.
     """
     aircraft = _aircraft(modes)[1]
-    gears = aircraft.gears
-    if elastic_legs:
+    chosen = landing_gears(paper=gears != "d150")
+    if gears == "legs":
         legs = [gear.leg for gear in landing_gears()]
-        gears = [g.model_copy(update={"leg": leg}) for g, leg in zip(gears, legs)]
+        chosen = [g.model_copy(update={"leg": leg}) for g, leg in zip(chosen, legs)]
     return MakeLandingDiagram(
         body,
-        gears,
+        chosen,
         monitor_nodes=list(aircraft.monitoring.values()),
         energy_budget=energy_budget,
     )

@@ -1,8 +1,9 @@
 """Microseconds per derivative evaluation of a landing, by system.
 
-    OPENBLAS_NUM_THREADS=1 python -m benchmarks.derivatives
+    OPENBLAS_NUM_THREADS=1 python -m benchmarks.derivatives [d150] [--callbacks]
 
-Three gears with six wheels on an airframe with 73 modes, in the middle of a landing.
+Three gears with six wheels on an airframe with 73 modes, in the middle of a landing;
+the paper's gears, or those of `d150`.
 The total is timed without instruments. The shares are those of the Python callbacks,
 each less the callbacks that it triggers upstream; the rest is Drake itself, the plant's
 forward dynamics and the framework, and the instruments. Processor time; the totals are
@@ -23,17 +24,18 @@ from typing import Any
 
 import numpy as np
 
-from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
+from benchmarks.conceptual_landing import make_landing, modal_body
+from drake_landing.landing.diagram import LandingDiagram
 from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.attachment.attachment import Attachment, RigidAttachment
+from systems.gear.elastic_legs import ElasticLegs
 from systems.gear.energy_budget import EnergyBudget
 from systems.gear.gear_forces import GearForces
 from systems.gear.wheel_kinematics import WheelKinematics
 from systems.shock_absorber.shock_absorber import ShockAbsorber
+from systems.shock_absorber.side_load import SideLoad
 from systems.tire.tire import Tire
-from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
-from tests.systems.synthetic_body import aircraft_body
 
 SYSTEMS: dict[str, tuple[Any, ...]] = {
     "airframe": (FlexibleAirframe,),
@@ -41,6 +43,8 @@ SYSTEMS: dict[str, tuple[Any, ...]] = {
     "tires (6)": (Tire,),
     "shock absorbers (3)": (ShockAbsorber,),
     "wheel kinematics": (WheelKinematics,),
+    "side loads (3)": (SideLoad,),
+    "elastic legs": (ElasticLegs,),
     "gear forces": (GearForces,),
     "energy budget": (EnergyBudget,),
 }
@@ -85,7 +89,7 @@ def instrumented(timer: ExclusiveTimer) -> Iterator[None]:
                     or attribute == "DoCalcTimeDerivatives"
                 ):
                     new = timer.wrap(name, value)
-                elif attribute in ("_wheel_port", "_strut_port"):
+                elif attribute.endswith("_port"):
                     new = _timed_factory(timer, name, value)
                 else:
                     continue
@@ -120,9 +124,8 @@ def derivative_seconds(
 
 def build(energy_budget: bool = True) -> tuple[LandingDiagram, Any]:
     """The diagram, and its context 50 ms into a landing."""
-    landing = MakeLandingDiagram(
-        aircraft_body(), aircraft_gears(), energy_budget=energy_budget
-    )
+    gears = "d150" if "d150" in sys.argv else "paper"
+    landing = make_landing(modal_body(73), 73, energy_budget, gears)
     return landing, land(landing, duration=0.05, accuracy=1e-3).context
 
 

@@ -1,6 +1,6 @@
 """Integrators: error of the peak loads against evaluations and processor time.
 
-    python -m benchmarks.integrators [--modes 73] [--legs]
+    python -m benchmarks.integrators [--modes 73] [--gears paper|legs|d150]
 
 One second of the conceptual aircraft's landing: spin-up, spring-back, first rebound.
 Error: worst of the peaks of F_x and F_z at the attachment nodes, over the largest of
@@ -27,6 +27,7 @@ CHOICES = (
     ("runge_kutta5", (1e-3, 1e-4, 1e-5)),
     ("radau3", (1e-3,)),
 )
+GEARS = ("paper", "legs", "d150")
 LIMIT = ("runge_kutta3", 1e-7)
 
 
@@ -51,10 +52,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Integrators of a landing.")
     parser.add_argument("--modes", type=int, default=73)
     parser.add_argument("--radau", action="store_true", help="slow")
-    parser.add_argument("--legs", action="store_true", help="elastic ones")
+    parser.add_argument("--gears", choices=GEARS, default="paper")
     chosen = parser.parse_args()
     body = modal_body(chosen.modes)
-    landing = make_landing(body, chosen.modes, elastic_legs=chosen.legs)
+    landing = make_landing(body, chosen.modes, gears=chosen.gears)
     mass = body.mass + sum(gear.mass for gear in landing.gears)
     sink_energy = 0.5 * mass * SINK_RATE**2
     timed(landing, "runge_kutta3", 1e-2)  # compiles what is not yet compiled
