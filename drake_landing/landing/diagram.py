@@ -32,7 +32,7 @@ from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
 from systems.attachment.attachment import Attachment, RigidAttachment
 from systems.attachment.bushing_attachment import BushingAttachment
-from systems.gear.energy_budget import AddEnergyBudget, EnergyBudget
+from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
 
 _LOGGED = {
@@ -97,7 +97,7 @@ class LandingDiagram:
     elastic_legs: Any = field(repr=False)
     bodies: dict[str, GearBodies] = field(repr=False)
     lift: DistributedLoad | None = field(repr=False)
-    energy_budget: EnergyBudget | None = field(repr=False)
+    energy_budget: Any = field(repr=False)
     loggers: dict[str, VectorLogSink] = field(repr=False)
     body: ModalBody = field(repr=False)
     gears: tuple[LandingGear, ...]
