@@ -17,7 +17,7 @@ section loads, for which
 (damping within the structure left out). Φ_r are the rigid motions, mass-normalised.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -27,7 +27,7 @@ from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import LandingHistory
 from drake_landing.parts.cuts import BeamCuts
 from drake_landing.parts.slices import balanced
-from drake_landing.parts.stress_rows import StressRows
+from drake_landing.parts.stress_rows import StressMaps
 from fem.arrays import Float64, Int64
 from fem.model.structure import Structure
 
@@ -59,7 +59,7 @@ def screening_basis(
     structure: Structure,
     basis: Basis,
     node_id: Int64,
-    rows: Sequence[StressRows],
+    maps: StressMaps,
     cuts: Mapping[str, BeamCuts],
 ) -> ScreeningBasis:
     """Static answers, stress modes and section loads of a full model.
@@ -68,7 +68,7 @@ def screening_basis(
         structure: free-flying.
         basis: elastic modes of the multibody model, mass-normalised.
         node_id: grids that the gears load, ascending.
-        rows: of all elements with stresses.
+        maps: of all elements with stresses.
         cuts: beam -> its cuts, made with these loaded nodes.
     """
     pattern = np.asarray(structure.operator(node_id, frame="basic").T.toarray())
@@ -84,7 +84,7 @@ def screening_basis(
         modes=shape.shape[1],
         shape=columns,
         stress=tuple(
-            np.ascontiguousarray(r.operator @ columns, dtype=np.float32) for r in rows
+            np.ascontiguousarray(rows, dtype=np.float32) for rows in maps.of(columns)
         ),
         sections={
             name: _sections(structure, basis, node_id, pattern, cut)

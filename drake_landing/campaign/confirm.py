@@ -14,12 +14,11 @@ from drake_landing.campaign.setup import (
     read_transient_setup,
 )
 from drake_landing.campaign.task import case_file
-from drake_landing.parts.stress_rows import Extremes, StressRows, starts
+from drake_landing.parts.stress_extremes import Steady, StressExtremes
 from drake_landing.transient.response import SCHEMES
 from fem.arrays import Float64
 from fem.files.hdf5_aside import written_hdf5
 from fem.response.direct import direct_transient
-from fem.response.observation import Chunk
 from fem.response.system import sampled_load
 
 
@@ -55,9 +54,11 @@ def run_block(task: BlockTask) -> tuple[int, ...]:
     setup = read_landing_setup(task.landing)
     full = read_transient_setup(task.transient)
     time, loads = _loads(task)
-    watch = BlockStress(setup.rows, full.operators, setup.steady)
+    steady = None if setup.steady is None else Steady(stress=setup.steady)
+    watch = StressExtremes(setup.rows, full.maps, full.extension, steady)
     _integrate(full, time, loads, watch, task.scheme)
-    for number, key, state in zip(task.numbers, task.keys, watch.states):
+    for case, (number, key) in enumerate(zip(task.numbers, task.keys)):
+        state = watch.state.of_case(slice(case, case + 1))
         with written_hdf5(confirmed_file(task.folder, number)) as file:
             file.attrs.update(case=number, key=key, until=time[-1])
             found = {
@@ -67,49 +68,9 @@ def run_block(task: BlockTask) -> tuple[int, ...]:
                 "time": (time[state.when], "s"),
             }
             for name, (values, units) in found.items():
-                data = file.create_dataset(f"stress/{name}", data=values)
+                data = file.create_dataset(f"stress/{name}", data=values[:, 0])
                 data.attrs["units"] = units
     return task.numbers
-
-
-class BlockStress:
-    """Observer: extremes of the stresses of all elements, every case on its own.
-
-    Args:
-        rows: elements, without maps.
-        operators: their maps, part by part.
-        steady: per part, stresses that each case's add to; None: increments alone.
-    """
-
-    def __init__(
-        self,
-        rows: Sequence[StressRows],
-        operators: Sequence,
-        steady: Sequence[np.ndarray] | None,
-    ) -> None:
-        self._rows, self._operators, self._steady = rows, operators, steady
-        self.states: list[Extremes] = []
-
-    def begin(self, time: Float64, cases: int, size: int) -> None:
-        """Start afresh; see `Observer`."""
-        elements = sum(r.size for r in self._rows)
-        self.states = [Extremes.zero(elements) for _ in range(cases)]
-
-    def observe(self, chunk: Chunk) -> None:
-        """Take the extremes of a chunk; see `Observer`."""
-        at = starts(self._rows)
-        for i, (rows, operator) in enumerate(zip(self._rows, self._operators)):
-            linear = chunk.get("displacement", operator)  # (t, c, rows)
-            whole = slice(0, rows.size)
-            for case, state in enumerate(self.states):
-                sigma = np.ascontiguousarray(linear[:, case].T)
-                if self._steady is not None:
-                    sigma += self._steady[i][:, None]
-                rows.extremes(sigma, whole, chunk.first, state, int(at[i]))
-
-    def memory_bytes(self, times: int, cases: int, size: int) -> int:
-        """Bytes of the extremes."""
-        return 28 * cases * sum(r.size for r in self._rows)
 
 
 def _loads(task: BlockTask) -> tuple[Float64, list[Float64]]:
@@ -138,7 +99,7 @@ def _integrate(
     full: TransientSetup,
     time: Float64,
     loads: Sequence[Float64],
-    watch: BlockStress,
+    watch: StressExtremes,
     scheme: str,
 ) -> None:
     step = float(time[-1] - time[0]) / (len(time) - 1)

@@ -57,9 +57,12 @@ def screen(
             sigma = basis.stress[i][own] @ q
             if steady is not None:
                 sigma += steady[i][own, None].astype(np.float32)
-            part.extremes(sigma, elements, 0, state, int(at))
+            part.of_rows(sigma, elements, 0, state, int(at))
     return Screened(
-        equivalent=state.equivalent, when=state.when, high=state.high, low=state.low
+        equivalent=state.equivalent[:, 0],
+        when=state.when[:, 0],
+        high=state.high[:, 0],
+        low=state.low[:, 0],
     )
 
 
@@ -74,15 +77,6 @@ def history_of(
     k = rows[part].per_element
     own = slice(element * k, (element + 1) * k)
     return basis.stress[part][own].astype(float) @ amplitudes
-
-
-def steady_rows(
-    rows: Sequence[StressRows], displacement: Float64 | None
-) -> list[np.ndarray] | None:
-    """Per part, (e per_element,) stresses under displacements (f,); None for none."""
-    if displacement is None:
-        return None
-    return [np.asarray(r.operator @ displacement) for r in rows]
 
 
 def _tiles(part: StressRows) -> Iterator[slice]:

@@ -21,12 +21,12 @@ from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.body import AirframeModel, load_airframe
 from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.campaign.basis import ScreeningBasis, screening_basis
-from drake_landing.campaign.screening import steady_rows
 from drake_landing.case.schema import Case
 from drake_landing.parts.cuts import BeamCuts
+from drake_landing.parts.element_maps import Extension
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.stress import StressPart
-from drake_landing.parts.stress_rows import StressRows, stress_rows
+from drake_landing.parts.stress_rows import Map, StressRows, stress_maps
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter
@@ -69,14 +69,16 @@ class TransientSetup:
     Attributes:
         stiffness, mass, damping: of the free set.
         pattern: (f, 6 k) loads on the nodes.
-        operators: per part of the rows.
+        maps: of the rows, part by part, on extended vectors.
+        extension: of vectors of the free set.
     """
 
     stiffness: sp.csr_matrix = field(repr=False)
     mass: sp.csr_matrix = field(repr=False)
     damping: Damping = field(repr=False)
     pattern: sp.csr_matrix = field(repr=False)
-    operators: tuple[sp.csr_matrix, ...] = field(repr=False)
+    maps: tuple[Map, ...] = field(repr=False)
+    extension: Extension = field(repr=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -155,14 +157,14 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         flight = balanced(structure, aircraft.steady_load(structure))
         steady = flight.displacement[:, 0]
     watch = parts_watch(case, aircraft, structure, nodes, steady)
-    rows, cuts = stress_rows(watch.stresses), watch.cuts
-    answers = screening_basis(structure, airframe.basis, nodes, rows, cuts)
+    maps, cuts = stress_maps(watch.stresses), watch.cuts
+    answers = screening_basis(structure, airframe.basis, nodes, maps, cuts)
     setup = LandingSetup(
         body=airframe.body,
         node_id=nodes,
         basis=_slim(answers),
-        rows=tuple(map(_without_map, rows)),
-        steady=steady_rows(rows, steady),
+        rows=tuple(map(_without_map, maps.rows)),
+        steady=None if steady is None else maps.of(steady),
         cuts={name: _without_maps(c) for name, c in cuts.items()},
         elements=watch.rows,
         highest_hz=airframe.highest_hz,
@@ -172,7 +174,8 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         mass=structure.mass,
         damping=structure.damping,
         pattern=sp.csr_matrix(structure.operator(nodes, frame="basic").T),
-        operators=tuple(r.operator for r in rows),
+        maps=maps.maps(),
+        extension=maps.extension,
     )
     key = content_key(
         source_key("fem", "systems", "drake_landing"),
@@ -224,13 +227,7 @@ def _slim(basis: ScreeningBasis) -> ScreeningBasis:
 def _without_map(rows: StressRows) -> StressRows:
     nothing = sp.csr_matrix((0, 0))
     part = StressPart(id=rows.part.id, operator=nothing, pieces=rows.part.pieces)
-    return StressRows(
-        kind=rows.kind,
-        part=part,
-        isotropic=rows.isotropic,
-        per_element=rows.per_element,
-        operator=nothing,
-    )
+    return replace(rows, part=part)
 
 
 def _without_maps(cuts: BeamCuts) -> BeamCuts:

@@ -11,7 +11,8 @@
     solids      von Mises at the centre
 
 Largest and smallest are the principal or direct stresses. All of it is a sparse matrix
-on displacements, then a few array operations.
+on displacements of the g-set, then a few array operations; during a transient a kernel
+does both (`stress_extremes`).
 """
 
 from collections.abc import Callable, Sequence
@@ -65,7 +66,7 @@ class StressPart:
 
     Attributes:
         id: (e,) elements.
-        operator: (e k, f) from displacements of the free set to k linear quantities of
+        operator: (e k, g) from displacements of the g-set to k linear quantities of
             each element.
         pieces: the elements in groups whose histories fit into a cache.
     """
@@ -75,7 +76,7 @@ class StressPart:
     pieces: tuple[StressPiece, ...]
 
     def of(self, displacement: Float64) -> Float64:
-        """(c, e, 3) under displacements (f, c)."""
+        """(c, e, 3) under displacements of the g-set (g, c)."""
         linear = np.asarray(self.operator @ displacement).T
         found = [piece.evaluate(linear[:, piece.rows]) for piece in self.pieces]
         return np.concatenate(found, axis=1)
@@ -87,10 +88,12 @@ class Stresses:
 
     Attributes:
         parts: elements of one kind each.
+        expand: (g, f) g-set from the free set.
         without_points: ids, see `without_stress_points`.
     """
 
     parts: tuple[StressPart, ...]
+    expand: sp.csr_matrix = field(repr=False)
     without_points: Int64 = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @cached_property
@@ -108,7 +111,8 @@ class Stresses:
         """(c, e, 3) `MEASURES` under displacements (f, c)."""
         if not self.parts:
             return np.zeros((displacement.shape[1], 0, 3))
-        return np.concatenate([part.of(displacement) for part in self.parts], axis=1)
+        moved = np.asarray(self.expand @ displacement)
+        return np.concatenate([part.of(moved) for part in self.parts], axis=1)
 
 
 def stresses(structure: Structure) -> Stresses:
@@ -120,7 +124,11 @@ def stresses(structure: Structure) -> Stresses:
             found.append(make(structure, block))
         else:
             found += _printed(structure, block)
-    return Stresses(parts=tuple(found), without_points=without_stress_points(structure))
+    return Stresses(
+        parts=tuple(found),
+        expand=structure.elimination.T,
+        without_points=without_stress_points(structure),
+    )
 
 
 def without_stress_points(structure: Structure) -> Int64:
@@ -167,7 +175,7 @@ def _sheets(structure: Structure, block: Shell) -> StressPart:
     left = _diagonal(np.repeat(~known, 3 * count).astype(float))
     operator = taken @ (_blocks(np.repeat(elastic, count, axis=0)) @ strain.operator)
     operator = operator + left @ stress.operator
-    return _shell_part(structure, block, operator, np.ones(len(material), bool))
+    return _shell_part(block, operator, np.ones(len(material), bool))
 
 
 def _laminates(structure: Structure, block: Shell) -> StressPart:
@@ -194,11 +202,10 @@ def _laminates(structure: Structure, block: Shell) -> StressPart:
         ]
     )
     operator = _blocks(np.nan_to_num(maps[laminate])) @ table.operator
-    return _shell_part(structure, block, operator, np.array(pure)[laminate])
+    return _shell_part(block, operator, np.array(pure)[laminate])
 
 
 def _shell_part(
-    structure: Structure,
     block: Shell,
     operator: sp.spmatrix,
     isotropic: npt.NDArray[np.bool_],
@@ -217,7 +224,7 @@ def _shell_part(
             )
         )
     return StressPart(
-        id=block.id, operator=_free(structure, operator), pieces=tuple(pieces)
+        id=block.id, operator=sp.csr_matrix(operator), pieces=tuple(pieces)
     )
 
 
@@ -248,7 +255,7 @@ def _printed(structure: Structure, block: ElementBlock) -> list[StressPart]:
         found.append(
             StressPart(
                 id=table.id,
-                operator=_free(structure, table.operator),
+                operator=table.operator,
                 pieces=tuple(pieces),
             )
         )
@@ -315,10 +322,3 @@ def _blocks(maps: Float64) -> sp.bsr_matrix:
 def _diagonal(values: Float64) -> sp.csr_matrix:
     n = len(values)
     return sp.csr_matrix((values, np.arange(n), np.arange(n + 1)), shape=(n, n))
-
-
-def _free(structure: Structure, operator: sp.spmatrix) -> sp.csr_matrix:
-    """On the free set, without stored zeros."""
-    result = sp.csr_matrix(sp.csr_matrix(operator) @ structure.elimination.T)
-    result.eliminate_zeros()
-    return result

@@ -15,14 +15,15 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
+from drake_landing.parts.element_maps import DenseRows, Extension
 from drake_landing.parts.stress import Stresses, StressPart
-from drake_landing.parts.stress_kernels import line_extremes, sheet_extremes
+from drake_landing.parts.stress_kernels import of_displacements, of_rows
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Bool, Float64, Int64
 
 Kind = Literal["sheet", "line", "other"]
+Map = DenseRows | sp.csr_matrix
 _SAME = 1e-9  # of the largest: two ways to one stress
-_KERNELS = {"sheet": sheet_extremes, "line": line_extremes}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,47 +35,95 @@ class StressRows:
         part: where they come from.
         isotropic: (e,) von Mises is the equivalent stress of sheets.
         per_element: rows of each element.
-        operator: (e per_element, f) from displacements of the free set to the rows.
     """
 
     kind: Kind
     part: StressPart = field(repr=False)
     isotropic: Bool
     per_element: int
-    operator: sp.csr_matrix = field(repr=False)
 
     @property
     def size(self) -> int:
         """Elements."""
         return len(self.part.id)
 
-    def extremes(
+    @property
+    def points(self) -> int:
+        """Where each element of a known kind has a stress."""
+        return self.per_element // (3 if self.kind == "sheet" else 1)
+
+    def of_rows(
         self, sigma: Float64, elements: slice, first: int, state: "Extremes", at: int
     ) -> None:
-        """Takes the stresses of some elements into running extremes.
+        """Takes the stresses of some elements into running extremes of one load case.
 
         Args:
             sigma: (e per_element, t) rows of these elements.
-            elements: which of the part.
+            elements: which of the part; whole pieces of a part of another kind.
             first: number of the first instant.
             state: extremes of all parts.
             at: position of the first element of the part in it.
         """
-        own = slice(at + elements.start, at + elements.stop)
+        own = state.take(slice(at + elements.start, at + elements.stop))
         if self.kind == "other":
-            _other(self, sigma, elements, first, state, own)
+            _other(self, sigma, elements, first, own)
             return
-        points = self.per_element // (3 if self.kind == "sheet" else 1)
-        _KERNELS[self.kind](
+        of_rows(
+            self.kind == "sheet",
             sigma,
-            points,
+            self.points,
             self.isotropic[elements],
             first,
-            state.square[own],
-            state.when[own],
-            state.high[own],
-            state.low[own],
+            own.square,
+            own.when,
+            own.high,
+            own.low,
         )
+
+    def of_displacements(
+        self,
+        maps: Map,
+        offset: Float64,
+        share: Float64,
+        u: Float64,
+        first: int,
+        state: "Extremes",
+        at: int,
+    ) -> None:
+        """Takes the stresses of all elements under displacements; see `of_rows`.
+
+        Args:
+            maps: of this part.
+            offset: (e per_element,) stresses that come to those of a lane with its
+            share: (lanes,).
+            u: (f + d, lanes) extended vectors, cases of an instant side by side.
+            first, state, at: as there.
+        """
+        own = state.take(slice(at, at + self.size))
+        if isinstance(maps, DenseRows):
+            of_displacements(
+                self.kind == "sheet",
+                maps.pointer,
+                maps.column,
+                maps.coefficient,
+                offset,
+                share,
+                u,
+                self.points,
+                self.isotropic,
+                first,
+                own.square,
+                own.when,
+                own.high,
+                own.low,
+            )
+            return
+        sigma = maps @ u + np.outer(offset, share)
+        cases = own.square.shape[1]
+        for case in range(cases):
+            alone = own.of_case(slice(case, case + 1))
+            lanes = sigma[:, case::cases]
+            _other(self, lanes, slice(0, self.size), first, alone)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,10 +131,10 @@ class Extremes:
     """Running extremes of all elements, in the order of `Stresses.id`.
 
     Attributes:
-        square: (e,) square of the largest equivalent stress, Pa².
-        when: (e,) number of its instant.
-        high, low: (e,) largest and smallest direct or principal stress, Pa; they count
-            from zero, as the stresses of an aircraft at rest do.
+        square: (e, c) square of the largest equivalent stress of each load case, Pa².
+        when: (e, c) number of its instant.
+        high, low: (e, c) largest and smallest direct or principal stress, Pa; they
+            count from zero, as the stresses of an aircraft at rest do.
     """
 
     square: Float64
@@ -94,24 +143,76 @@ class Extremes:
     low: Float64
 
     @classmethod
-    def zero(cls, elements: int) -> "Extremes":
+    def zero(cls, elements: int, cases: int = 1) -> "Extremes":
         """Before the first instant."""
+        shape = (elements, cases)
         return cls(
-            square=np.zeros(elements),
-            when=np.zeros(elements, np.int32),
-            high=np.zeros(elements),
-            low=np.zeros(elements),
+            square=np.zeros(shape),
+            when=np.zeros(shape, np.int32),
+            high=np.zeros(shape),
+            low=np.zeros(shape),
         )
 
     @property
     def equivalent(self) -> Float64:
-        """(e,) largest equivalent stress, Pa."""
+        """(e, c) largest equivalent stress, Pa."""
         return np.sqrt(self.square)
 
+    def take(self, elements: slice) -> "Extremes":
+        """Views of some elements."""
+        return Extremes(
+            square=self.square[elements],
+            when=self.when[elements],
+            high=self.high[elements],
+            low=self.low[elements],
+        )
 
-def stress_rows(stresses: Stresses) -> tuple[StressRows, ...]:
+    def of_case(self, cases: slice) -> "Extremes":
+        """Views of some load cases."""
+        return Extremes(
+            square=self.square[:, cases],
+            when=self.when[:, cases],
+            high=self.high[:, cases],
+            low=self.low[:, cases],
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class StressMaps:
+    """How stresses follow from displacements.
+
+    Attributes:
+        rows: all parts.
+        maps: of each, its rows on extended vectors.
+        extension: of vectors of the free set.
+    """
+
+    rows: tuple[StressRows, ...]
+    operators: tuple[sp.csr_matrix, ...] = field(repr=False)
+    extension: Extension = field(repr=False)
+
+    def of(self, displacement: Float64) -> list[Float64]:
+        """Per part, (e per_element, ...) rows under displacements (f, ...)."""
+        extended = self.extension.extended(displacement)
+        return [np.asarray(operator @ extended) for operator in self.operators]
+
+    def maps(self) -> tuple[Map, ...]:
+        """As kernels take them."""
+        return tuple(
+            operator if rows.kind == "other" else DenseRows.of(operator, rows.size)
+            for rows, operator in zip(self.rows, self.operators)
+        )
+
+
+def stress_maps(stresses: Stresses) -> StressMaps:
     """All parts, those that are sheets or lines recognised as such."""
-    return tuple(_recognised(part) for part in stresses.parts)
+    extension = Extension.of(stresses.expand)
+    found = [_recognised(part) for part in stresses.parts]
+    return StressMaps(
+        rows=tuple(rows for rows, _ in found),
+        operators=tuple(extension.rows(operator) for _, operator in found),
+        extension=extension,
+    )
 
 
 def starts(rows: Sequence[StressRows]) -> Int64:
@@ -119,30 +220,25 @@ def starts(rows: Sequence[StressRows]) -> Int64:
     return np.cumsum([0, *(r.size for r in rows)])[:-1]
 
 
-def _recognised(part: StressPart) -> StressRows:
+def _recognised(part: StressPart) -> tuple[StressRows, sp.csr_matrix]:
+    """Its kind, and its rows on the g-set."""
     total, _ = shape_of(part.operator)
     per_element = total // max(len(part.id), 1)
     for kind, turn, isotropic in _candidates(part, per_element):
-        operator = part.operator
-        if turn is not None:
-            every = sp.kron(sp.identity(len(part.id)), sp.csr_matrix(turn))
-            operator = sp.csr_matrix(every @ operator)
         rows = StressRows(
             kind=kind,
             part=part,
             isotropic=isotropic,
             per_element=per_element if turn is None else len(turn),
-            operator=operator,
         )
         if _agrees(rows, per_element, turn):
-            return rows
-    return StressRows(
-        kind="other",
-        part=part,
-        isotropic=np.ones(len(part.id), bool),
-        per_element=per_element,
-        operator=part.operator,
-    )
+            if turn is None:
+                return rows, part.operator
+            every = sp.kron(sp.identity(len(part.id)), sp.csr_matrix(turn))
+            return rows, sp.csr_matrix(every @ part.operator)
+    every = np.ones(len(part.id), bool)
+    rows = StressRows(kind="other", part=part, isotropic=every, per_element=per_element)
+    return rows, part.operator
 
 
 def _candidates(part: StressPart, k: int):
@@ -159,7 +255,7 @@ def _candidates(part: StressPart, k: int):
         bar[:, 4] = 1.0
         yield "line", bar, np.ones(e, bool)
     yield "line", np.eye(k)[:1], np.ones(e, bool)
-    yield "line", np.eye(k), np.ones(e, bool)
+    yield "line", None, np.ones(e, bool)
 
 
 def _agrees(rows: StressRows, k: int, turn: Float64 | None) -> bool:
@@ -169,27 +265,23 @@ def _agrees(rows: StressRows, k: int, turn: Float64 | None) -> bool:
     linear = rng.standard_normal((rows.size, k, 3))
     given = linear if turn is None else np.einsum("pk,ekt->ept", turn, linear)
     sigma = np.ascontiguousarray(given.reshape(-1, 3))
-    rows.extremes(sigma, slice(0, rows.size), 0, state, 0)
+    rows.of_rows(sigma, slice(0, rows.size), 0, state, 0)
     flat = linear.reshape(-1, 3).T
     own = [np.asarray(p.evaluate(flat[:, p.rows])) for p in part.pieces]
     expected = np.concatenate(own, axis=1) if own else np.zeros((3, 0, 3))
-    found = state.equivalent
+    found = state.equivalent[:, 0]
     wanted = expected[..., 0].max(axis=0)
     scale = np.abs(wanted).max(initial=1.0)
     same = np.abs(found - wanted).max(initial=0.0) <= _SAME * scale
     high = np.maximum(expected[..., 1].max(axis=0), 0.0)
-    return bool(same and np.abs(state.high - high).max(initial=0.0) <= _SAME * scale)
+    missed = np.abs(state.high[:, 0] - high).max(initial=0.0)
+    return bool(same and missed <= _SAME * scale)
 
 
 def _other(
-    rows: StressRows,
-    sigma: Float64,
-    elements: slice,
-    first: int,
-    state: Extremes,
-    own: slice,
+    rows: StressRows, sigma: Float64, elements: slice, first: int, own: Extremes
 ) -> None:
-    """Extremes by the part's own functions; `elements` are whole pieces."""
+    """Extremes of one load case by the part's own functions, of whole pieces."""
     found = []
     offset = elements.start * rows.per_element
     for piece in rows.part.pieces:
@@ -198,9 +290,9 @@ def _other(
             found.append(piece.evaluate(np.asarray(sigma[at].T, float)))
     values = np.concatenate(found, axis=1)
     best = values[..., 0].argmax(axis=0)
-    equivalent = np.take_along_axis(values[..., 0], best[None], axis=0)[0] ** 2
-    better = equivalent > state.square[own]
-    state.square[own] = np.where(better, equivalent, state.square[own])
-    state.when[own] = np.where(better, first + best, state.when[own])
-    state.high[own] = np.maximum(state.high[own], values[..., 1].max(axis=0))
-    state.low[own] = np.minimum(state.low[own], values[..., 2].min(axis=0))
+    equivalent = np.take_along_axis(values[..., 0], best[None], axis=0).T ** 2
+    better = equivalent > own.square
+    np.copyto(own.square, equivalent, where=better)
+    np.copyto(own.when, first + best[:, None], where=better, casting="unsafe")
+    np.maximum(own.high, values[..., 1].max(axis=0)[:, None], out=own.high)
+    np.minimum(own.low, values[..., 2].min(axis=0)[:, None], out=own.low)

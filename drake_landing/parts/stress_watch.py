@@ -7,11 +7,14 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.parts.stress import Stresses
-from fem.algebra.sparse_products import shape_of
+from drake_landing.parts.stress_extremes import Steady, StressExtremes
+from drake_landing.parts.stress_rows import Extremes, stress_maps
 from fem.response.observation import Chunk
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
+
+_STATE = ("square", "when", "high", "low")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,9 +44,6 @@ class StressWatch:
             case upon them is one more case, the last. None: there is none.
 
     Attributes:
-        equivalent: (c, e) largest equivalent stress of c cases.
-        time: (c, e) when.
-        largest, smallest: (c, e) extremes of the direct or principal stresses.
         worst: component -> snapshot, of the first load case upon `about`.
     """
 
@@ -56,14 +56,33 @@ class StressWatch:
     ) -> None:
         self.stresses = stresses
         self._about = about
-        self._offset = [
-            None if about is None else part.operator @ about for part in stresses.parts
-        ]
+        maps = stress_maps(stresses)
+        steady = None if about is None else Steady(stress=maps.of(about), apart=True)
+        self._seen = StressExtremes(maps.rows, maps.maps(), maps.extension, steady)
         self._group = group
         self._weight = np.where(stresses.axial_only, 0.0, _weights(group, allowed))
         self._highest: dict[int, float] = {}
         self.worst: dict[int, Snapshot] = {}
-        self.equivalent = self.time = self.largest = self.smallest = np.zeros((0, 0))
+
+    @property
+    def equivalent(self) -> Float64:
+        """(c, e) largest equivalent stress of c cases, Pa."""
+        return self._seen.state.equivalent.T
+
+    @property
+    def time(self) -> Float64:
+        """(c, e) when, s."""
+        return self._seen.time[self._seen.state.when.T]
+
+    @property
+    def largest(self) -> Float64:
+        """(c, e) of the direct or principal stresses, Pa."""
+        return self._seen.state.high.T
+
+    @property
+    def smallest(self) -> Float64:
+        """(c, e) of the direct or principal stresses, Pa."""
+        return self._seen.state.low.T
 
     @property
     def content(self) -> list[object]:
@@ -72,40 +91,26 @@ class StressWatch:
 
     def begin(self, time: Float64, cases: int, size: int) -> None:
         """Start afresh; see `Observer`."""
-        shape = (cases + (self._about is not None), len(self.stresses.id))
-        self.equivalent, self.time = np.zeros(shape), np.full(shape, time[0])
-        self.largest, self.smallest = np.zeros(shape), np.zeros(shape)
+        self._seen.begin(time, cases, size)
         self._highest, self.worst = {}, {}
 
     def observe(self, chunk: Chunk) -> None:
         """Take the extremes of a chunk; see `Observer`."""
-        first = 0
-        for part, offset in zip(self.stresses.parts, self._offset):
-            linear = chunk.get("displacement", part.operator)
-            if offset is not None:
-                linear = np.concatenate([linear, linear[:, :1] + offset], axis=1)
-            for piece in part.pieces:
-                at = slice(first + piece.elements.start, first + piece.elements.stop)
-                self._take(at, piece.evaluate(linear[..., piece.rows]), chunk.time)
-            first += len(part.id)
+        self._seen.observe(chunk)
         self._snap(chunk)
 
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
         """Bytes of extremes and snapshots."""
         snapshots = len(np.unique(self._group)) * size
-        return 8 * (4 * cases * len(self.stresses.id) + snapshots)
+        return 8 * snapshots + self._seen.memory_bytes(times, cases, size)
 
     def arrays(self) -> dict[str, npt.NDArray]:
         """All that was found, for `restore`."""
-        worst = list(self.worst.values())
-        size = (
-            shape_of(self.stresses.parts[0].operator)[1] if self.stresses.parts else 0
-        )
+        worst, state = list(self.worst.values()), self._seen.state
+        _, size = self.stresses.expand.shape
         return {
-            "equivalent": self.equivalent,
-            "time": self.time,
-            "largest": self.largest,
-            "smallest": self.smallest,
+            "instants": self._seen.time,
+            **{name: getattr(state, name) for name in _STATE},
             "worst_group": np.array(list(self.worst), np.int64),
             "worst_time": np.array([w.time for w in worst], float),
             "worst_element": np.array([w.element for w in worst], np.int64),
@@ -116,8 +121,8 @@ class StressWatch:
 
     def restore(self, arrays: Mapping[str, npt.NDArray]) -> None:
         """Takes over what the same observer has found before."""
-        self.equivalent, self.time = arrays["equivalent"], arrays["time"]
-        self.largest, self.smallest = arrays["largest"], arrays["smallest"]
+        self._seen.time = arrays["instants"]
+        self._seen.state = Extremes(**{name: arrays[name] for name in _STATE})
         self.worst = {
             int(group): Snapshot(time=float(t), element=int(e), displacement=u)
             for group, t, e, u in zip(
@@ -128,22 +133,11 @@ class StressWatch:
             )
         }
 
-    def _take(self, at: slice, values: Float64, time: Float64) -> None:
-        """Extremes of (m, c, n, 3) go into those of the elements `at`."""
-        equal = values[..., 0]
-        when = equal.argmax(axis=0)
-        found = np.take_along_axis(equal, when[None], axis=0)[0]
-        known = self.equivalent[:, at]
-        better = found > known
-        self.equivalent[:, at] = np.where(better, found, known)
-        self.time[:, at] = np.where(better, time[when], self.time[:, at])
-        np.maximum(self.largest[:, at], values[..., 1].max(0), self.largest[:, at])
-        np.minimum(self.smallest[:, at], values[..., 2].min(0), self.smallest[:, at])
-
     def _snap(self, chunk: Chunk) -> None:
         """Displacements of the chunk's worst instants that are worse than before."""
         case = 0 if self._about is None else -1
-        score = self.equivalent[case] * self._weight
+        state = self._seen.state.of_case(slice(case, None if case else 1))
+        score = state.equivalent[:, 0] * self._weight
         order = np.argsort(-score, kind="stable")
         group, first = np.unique(self._group[order], return_index=True)
         improved = [
@@ -156,7 +150,7 @@ class StressWatch:
         window, about = chunk.get("displacement"), self._about
         for component, e in improved:
             self._highest[component] = float(score[e])
-            row = int(np.argmin(np.abs(chunk.time - self.time[case, e])))
+            row = int(state.when[e, 0]) - chunk.first
             self.worst[component] = Snapshot(
                 time=float(chunk.time[row]),
                 element=int(self.stresses.id[e]),

@@ -156,7 +156,7 @@ class PartsWatch:
     def content(self) -> list[object]:
         """Everything that what it finds depends on, beside loads and matrices."""
         s = self._stress
-        maps = [part.operator for part in self.stresses.parts]
+        maps = [self.stresses.expand, *(p.operator for p in self.stresses.parts)]
         operators = [o.operator for o in (self._motion, self._velocity) if o]
         return [maps, operators, *s.content]
 

@@ -2,8 +2,11 @@
 
 Lumped mass matrices are diagonal but for the few rows of offset masses and eliminated
 constraints. Taking the diagonal apart makes the product a pass over the vectors alone.
+Sums of vectors and products with the diagonal are taken piece by piece, so that what is
+in between stays in the processor's cache.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +14,9 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.arrays import Float64
+
+Term = tuple[float, Float64]
+_PIECE = 16384  # numbers at a time: a sum and what is added to it stay in the cache
 
 
 def shape_of(matrix: sp.spmatrix | sp.sparray) -> tuple[int, int]:
@@ -58,3 +64,39 @@ class SplitMatrix:
             else:
                 product[:, self.rows] += (self.rest @ vectors[:, self.columns].T).T
         return product
+
+    def of_sum(self, *terms: Term, out: Float64) -> None:
+        """Product with a sum of factors times vectors (c, n), into `out`."""
+        given = [term for term in terms if term[0] != 0.0]
+        if self.diagonal is None or not given:
+            out[:] = 0.0
+        else:
+            scaled = [factor * self.diagonal for factor, _ in given]
+            for part, buffer in _pieces(out):
+                whole = out[:, part]
+                np.multiply(given[0][1][:, part], scaled[0][part], out=whole)
+                for (_, vectors), scale in zip(given[1:], scaled[1:]):
+                    whole += np.multiply(vectors[:, part], scale[part], out=buffer)
+        if self.rest.nnz and given:
+            chosen = sum(factor * v[:, self.columns] for factor, v in given)
+            out[:, self.rows] += (self.rest @ chosen.T).T
+
+
+def weighted_sum(*terms: Term, out: Float64) -> None:
+    """Sum of factors times vectors (c, n), into `out`, which is none of them."""
+    given = [term for term in terms if term[0] != 0.0]
+    for part, buffer in _pieces(out):
+        whole = out[:, part]
+        whole[:] = 0.0
+        for factor, vectors in given:
+            whole += np.multiply(vectors[:, part], factor, out=buffer)
+
+
+def _pieces(vectors: Float64) -> Iterator[tuple[slice, Float64]]:
+    """Columns piece by piece, and memory for as many numbers."""
+    cases, size = vectors.shape
+    width = max(1, min(size, _PIECE // max(cases, 1)))
+    memory = np.empty((cases, width))
+    for start in range(0, size, width):
+        stop = min(start + width, size)
+        yield slice(start, stop), memory[:, : stop - start]

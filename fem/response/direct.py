@@ -2,7 +2,8 @@
 
 Several load cases are integrated together, as one block of right-hand sides, which is
 several times cheaper per case than one after the other. Histories are kept only where
-an observer asks for them.
+an observer asks for them. Observers work in a second thread while the next steps are
+solved.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -15,9 +16,10 @@ import scipy.sparse as sp
 from fem.algebra.damping import Damping
 from fem.algebra.linear_solver import Factorization, SolverName
 from fem.arrays import Float64
+from fem.response.beside import Beside
 from fem.response.generalized_alpha import GeneralizedAlpha
 from fem.response.nastran_scheme import NastranScheme
-from fem.response.observation import Chunk, Observer, total_memory
+from fem.response.observation import Observer, total_memory
 from fem.response.system import TransientLoad, TransientSystem, sampled_load
 from fem.response.time_grid import output_times, step_groups
 
@@ -106,20 +108,17 @@ def direct_transient(
     clock = _Clock()
     run = _Run(scheme, system, cases, time, total, observers, clock, inform, progress)
 
-    def emit(chunk: Chunk) -> None:
-        for observer in observers:
-            observer.observe(chunk)
-
-    scheme.integrate(
-        system,
-        load,
-        groups,
-        _state(u0, cases, system.size, "u0"),
-        _state(v0, cases, system.size, "v0"),
-        emit,
-        run.tick,
-        run.announce,
-    )
+    with Beside(observers) as beside:
+        scheme.integrate(
+            system,
+            load,
+            groups,
+            _state(u0, cases, system.size, "u0"),
+            _state(v0, cases, system.size, "v0"),
+            beside.emit,
+            run.tick,
+            run.announce,
+        )
     clock.end_steps()
     return TransientRun(
         time=time,

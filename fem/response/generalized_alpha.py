@@ -64,7 +64,7 @@ class GeneralizedAlpha:
 
     def working_vectors(self, cases: int, size: int) -> int:
         """Vectors per load case that are in memory at a time."""
-        return 3 * window_length(cases, size) + 8
+        return 6 * window_length(cases, size) + 8
 
     def integrate(
         self,
@@ -177,7 +177,9 @@ class _Sink:
         self._group = group
         self._emit = emit
         self._wanted = set(group.outputs.tolist())
-        self._arrays = np.zeros((3, window_length(cases, size), cases, size))
+        # One set is observed while the other is filled.
+        shape = (3, window_length(cases, size), cases, size)
+        self._arrays, self._observed = np.zeros(shape), np.zeros(shape)
         self._steps: list[int] = []
         self._done = 0
 
@@ -201,5 +203,6 @@ class _Sink:
         }
         first = self._group.first_output + self._done
         self._emit(StateChunk(first, self._group.time(self._steps), arrays))
+        self._arrays, self._observed = self._observed, self._arrays
         self._done += m
         self._steps = []

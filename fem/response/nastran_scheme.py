@@ -29,9 +29,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from fem.algebra.linear_solver import Factorization
+from fem.algebra.sparse_products import weighted_sum
 from fem.arrays import Float64
 from fem.response.observation import Chunk, DifferenceChunk
 from fem.response.system import TransientLoad, TransientSystem
@@ -48,6 +48,8 @@ class _Step:
     system: TransientSystem
     factor: Factorization
     h: float
+    right: Float64
+    solved: Float64
 
     def advance(
         self,
@@ -57,26 +59,31 @@ class _Step:
         out: Float64,
         extra: Float64 | None,
     ) -> None:
-        """u(n+1) into `out` from u(n), u(n-1) (c, n) and mean load factors (c, k)."""
-        system, h = self.system, self.h
+        """u(n+1) into `out` from u(n), u(n-1) (c, n) and mean load factors (c, k).
+
+        The window, `right` and `solved` are all that is written or read, once each.
+        """
+        system, h, right = self.system, self.h, self.right
         a, b = system.damping.stiffness_factor, system.damping.mass_factor
         share = a / (1.0 / 3.0 + a / (2.0 * h))
-        w = u / (2.0 * h)
-        w += before / h
-        right = u * (3.0 / (h * h))
         on_mass = b - share * (1.0 / (h * h) + b / (2.0 * h))
-        if on_mass != 0.0:
-            right += on_mass * w
-        right = system.mass_product.dot(right)
-        system.add_other(right, 1.0 - share / (2.0 * h), w)
+        system.mass_product.of_sum(
+            (3.0 / (h * h) + on_mass / (2.0 * h), u), (on_mass / h, before), out=right
+        )
+        if system.other_product is not None:
+            w = np.empty_like(right)
+            weighted_sum((0.5 / h, u), (1.0 / h, before), out=w)
+            system.add_other(right, 1.0 - share / (2.0 * h), w)
         system.add_load(right, load)
         if extra is not None:
             right += extra
-        np.subtract(self.factor.solve(right.T).T, u, out=out)
-        out -= before
-        if share != 0.0:
-            w *= share
-            out += w
+        self.factor.solve(right.T, out=self.solved.T)
+        weighted_sum(
+            (1.0, self.solved),
+            (share / (2.0 * h) - 1.0, u),
+            (share / h - 1.0, before),
+            out=out,
+        )
 
 
 @dataclass(frozen=True)
@@ -96,7 +103,7 @@ class NastranScheme:
 
     def working_vectors(self, cases: int, size: int) -> int:
         """Vectors per load case that are in memory at a time."""
-        return window_length(cases, size) + _KEPT + 6
+        return 2 * (window_length(cases, size) + _KEPT) + 6
 
     def integrate(
         self,
@@ -117,7 +124,8 @@ class NastranScheme:
             matrix = self.matrix_factors(system, group.step)
             with system.factorize(*matrix, len(u0)) as factor:
                 announce(factor)
-                step = _Step(system, factor, group.step)
+                right, solved = np.empty_like(start.u), np.empty_like(start.u)
+                step = _Step(system, factor, group.step, right, solved)
                 past = _run_group(step, group, start, factors, emit, tick)
 
     def _start(
@@ -191,57 +199,72 @@ def _run_group(
     tick: Callable[[], None],
 ) -> Float64:
     """Run one group; the displacements at its last three steps (3, c, n)."""
-    cases, size = start.u.shape
-    length = window_length(cases, size) + _KEPT
-    window = np.zeros((length, cases, size))
-    window[1], window[2] = start.before, start.u
-    outputs = group.outputs
-    first_step, filled = -2, 3  # the step in row 0, and rows in use
-    done = 0
+    windows = _Windows(group, start, emit)
     # The last group takes one more step, for the last central difference.
     for n in range(group.count + int(group.last)):
-        if filled == length:
-            done = _flush(window, first_step, filled, outputs, done, group, start, emit)
-            window[:_KEPT] = window[-_KEPT:].copy()
-            first_step += length - _KEPT
-            filled = _KEPT
-        step.advance(
-            window[filled - 1],
-            window[filled - 2],
-            factors[n],
-            window[filled],
-            start.extra(n),
-        )
-        filled += 1
+        before, u, out = windows.next_rows()
+        step.advance(u, before, factors[n], out, start.extra(n))
         tick()
-    _flush(window, first_step, filled, outputs, done, group, start, emit)
-    return window[filled - _KEPT : filled].copy()
+    windows.hand_out()
+    return windows.last.copy()
 
 
-def _flush(
-    window: Float64,
-    first_step: int,
-    filled: int,
-    outputs: npt.NDArray[np.intp],
-    done: int,
-    group: StepGroup,
-    start: _Start,
-    emit: Callable[[Chunk], None],
-) -> int:
-    """Hand out the outputs that have both neighbours; how many are done then."""
-    ready = int(np.searchsorted(outputs, first_step + filled - 1))
-    if ready == done:
-        return done
-    steps = outputs[done:ready]
-    velocity = start.velocity if done == 0 else None
-    emit(
-        DifferenceChunk(
+class _Windows:
+    """Displacements of consecutive steps, handed out whenever their memory is full.
+
+    There are two windows: one is observed while the other is filled.
+    """
+
+    def __init__(
+        self, group: StepGroup, start: _Start, emit: Callable[[Chunk], None]
+    ) -> None:
+        self._group, self._velocity, self._emit = group, start.velocity, emit
+        cases, size = start.u.shape
+        length = window_length(cases, size) + _KEPT
+        self._window, self._observed = np.zeros((2, length, cases, size))
+        self._window[1], self._window[2] = start.before, start.u
+        self._first_step, self._filled = -2, _KEPT  # the step in row 0, rows in use
+        self._outputs, self._done = group.outputs, 0
+        self._chunk: DifferenceChunk | None = None
+
+    @property
+    def last(self) -> Float64:
+        """(3, c, n) displacements at the last three steps."""
+        return self._window[self._filled - _KEPT : self._filled]
+
+    def next_rows(self) -> tuple[Float64, Float64, Float64]:
+        """u(n-1), u(n), and the row for u(n+1)."""
+        if self._filled == len(self._window):
+            self.hand_out()
+            last = self.last
+            self._window, self._observed = self._observed, self._window
+            self._window[:_KEPT] = last
+            self._first_step += self._filled - _KEPT
+            self._filled = _KEPT
+        self._filled += 1
+        before, u, out = self.last
+        return before, u, out
+
+    def hand_out(self) -> None:
+        """Hand out the outputs that have both neighbours.
+
+        The window that was handed out before is free afterwards, see `Beside`.
+        """
+        group, done = self._group, self._done
+        end = self._first_step + self._filled - 1
+        ready = int(np.searchsorted(self._outputs, end))
+        if ready == done:
+            self._chunk = None
+            return
+        steps = self._outputs[done:ready]
+        self._chunk = DifferenceChunk(
             group.first_output + done,
             group.time(steps),
-            window[:filled],
-            steps - first_step,
+            self._window[: self._filled],
+            steps - self._first_step,
             group.step,
-            velocity,
+            self._velocity if done == 0 else None,
+            None if self._chunk is None else (self._chunk, _KEPT),
         )
-    )
-    return ready
+        self._done = ready
+        self._emit(self._chunk)

@@ -45,7 +45,11 @@ class Observer(Protocol):
         ...
 
     def observe(self, chunk: Chunk) -> None:
-        """Take from a chunk what is wanted; its arrays are reused afterwards."""
+        """Take from a chunk what is wanted; its arrays are reused afterwards.
+
+        It is called in another thread than `begin`, one chunk after the other. What the
+        chunk gives may be a view of its arrays: it must not be written to.
+        """
         ...
 
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
@@ -134,6 +138,8 @@ class DifferenceChunk:
         step: time step, s.
         initial_velocity: (c, n) velocity at the first time where it is given, not
             differenced.
+        before: the chunk before, and how many rows at the end of its window are those
+            at the begin of this one.
     """
 
     def __init__(
@@ -144,6 +150,7 @@ class DifferenceChunk:
         at: npt.NDArray[np.intp],
         step: float,
         initial_velocity: Float64 | None,
+        before: tuple["DifferenceChunk", int] | None = None,
     ) -> None:
         self.first = first
         self.time = time
@@ -151,27 +158,43 @@ class DifferenceChunk:
         self._at = at
         self._step = step
         self._initial_velocity = initial_velocity
-        # Only the latest operator's rows: a strong reference keeps its id from reuse.
-        self._projected: tuple[sp.csr_matrix, Float64] | None = None
+        # By id, with the operator: a strong reference keeps its id from reuse.
+        self._projected: _Projections = {}
+        self._earlier: _Projections = {} if before is None else before[0]._projected
+        self._shared = 0 if before is None else before[1]
 
     def _rows(self, operator: sp.csr_matrix | None) -> Float64:
+        """The window through an operator; what the chunk before has is not repeated."""
         if operator is None:
             return self._window
-        if self._projected is None or self._projected[0] is not operator:
-            self._projected = (operator, apply_operator(self._window, operator))
-        return self._projected[1]
+        if len(operator.indptr) - 1 > self._window.shape[2]:
+            return apply_operator(self._window, operator)  # too long to be kept
+        if id(operator) not in self._projected:
+            found = []
+            if id(operator) in self._earlier:
+                found.append(self._earlier[id(operator)][1][-self._shared :])
+            new = self._window[self._shared if found else 0 :]
+            found.append(apply_operator(new, operator))
+            self._projected[id(operator)] = operator, np.concatenate(found)
+        return self._projected[id(operator)][1]
 
     def get(self, quantity: Quantity, operator: sp.csr_matrix | None = None) -> Float64:
         """Response through an operator; see `Chunk`."""
         rows, at, h = self._rows(operator), self._at, self._step
         if quantity == "displacement":
-            return rows[at]
+            even = len(at) > 0 and at[-1] - at[0] == len(at) - 1
+            return rows[at[0] : at[-1] + 1] if even else rows[at]
         if quantity == "acceleration":
             return (rows[at + 1] - 2.0 * rows[at] + rows[at - 1]) / (h * h)
         velocity = (rows[at + 1] - rows[at - 1]) / (2.0 * h)
         if self._initial_velocity is not None and len(velocity):
             velocity[0] = apply_operator(self._initial_velocity[None], operator)[0]
         return velocity
+
+
+_Projections = dict[int, tuple[sp.csr_matrix, Float64]]
+_TOGETHER = 32  # vectors that a matrix multiplies at a time
+_TILE = 512  # of their entries that are turned at a time
 
 
 def apply_operator(vectors: Float64, operator: sp.csr_matrix | None) -> Float64:
@@ -185,7 +208,20 @@ def apply_operator(vectors: Float64, operator: sp.csr_matrix | None) -> Float64:
         columns = np.unique(operator.indices)
         compressed = operator[:, columns]
         return (compressed @ flat[:, columns].T).T.reshape(m, c, -1)
-    return (operator @ flat.T).T.reshape(m, c, -1)
+    out = np.empty((m * c, len(operator.indptr) - 1))
+    for start in range(0, m * c, _TOGETHER):
+        part = slice(start, min(start + _TOGETHER, m * c))
+        out[part] = (operator @ _turned(flat[part])).T
+    return out.reshape(m, c, -1)
+
+
+def _turned(vectors: Float64) -> Float64:
+    """(n, c) of (c, n), contiguous, by tiles that stay in the cache."""
+    c, n = vectors.shape
+    out = np.empty((n, c))
+    for start in range(0, n, _TILE):
+        out[start : start + _TILE] = vectors[:, start : start + _TILE].T
+    return out
 
 
 def total_memory(

@@ -47,11 +47,12 @@ class Factorization(Protocol):
     @property
     def memory_bytes(self) -> int: ...
 
-    def solve(self, right: Float64) -> Float64:
+    def solve(self, right: Float64, out: Float64 | None = None) -> Float64:
         """Solution of A x = right.
 
         Args:
             right: (n,) or (n, k); Fortran order avoids a copy. Not overwritten.
+            out: array of the same shape in Fortran order for the solution.
 
         Returns:
             Array of the same shape; blocks come in Fortran order.
@@ -85,3 +86,12 @@ def checked_right_side(right: Float64, n: int) -> Float64:
             f"right-hand side has shape {array.shape}, expected ({n}, ...)"
         )
     return np.asfortranarray(array)
+
+
+def room_for_solution(right: Float64, out: Float64 | None) -> Float64:
+    """The array that a solution goes into, of the shape of its right-hand side."""
+    if out is None:
+        return np.empty_like(right, order="F")
+    if out.shape != right.shape or not out.flags.f_contiguous:
+        raise ValueError(f"solution has shape {out.shape}, expected {right.shape}, 'F'")
+    return out

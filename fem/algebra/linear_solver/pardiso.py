@@ -23,6 +23,7 @@ from fem.algebra.linear_solver.interface import (
     SingularMatrixError,
     checked_right_side,
     default_threads,
+    room_for_solution,
 )
 
 _MATRIX_TYPE = {"spd": 2, "symmetric": -2}
@@ -204,12 +205,12 @@ class PardisoFactorization:
             self._mkl.MKL_Set_Num_Threads_Local(integer(previous))
         return error.value
 
-    def solve(self, right: Float64) -> Float64:
+    def solve(self, right: Float64, out: Float64 | None = None) -> Float64:
         """Solution of A x = right, see `Factorization.solve`."""
         if not self._open:
             raise ValueError("the factorisation has been closed")
         b = checked_right_side(right, self.n)
-        x = np.empty_like(b, order="F")
+        x = room_for_solution(b, out)
         if b.size:
             columns = 1 if b.ndim == 1 else b.shape[1]
             self._check(self._call(_SOLVE, b, x, columns))

@@ -17,6 +17,7 @@ from fem.algebra.linear_solver.interface import (
     Kind,
     SingularMatrixError,
     checked_right_side,
+    room_for_solution,
 )
 
 
@@ -58,12 +59,15 @@ class SuperLuFactorization:
         self.memory_bytes = 12 * int(lu.L.nnz + lu.U.nnz)
         self._lu = lu
 
-    def solve(self, right: Float64) -> Float64:
+    def solve(self, right: Float64, out: Float64 | None = None) -> Float64:
         """Solution of A x = right, see `Factorization.solve`."""
         if self._lu is None:
             raise ValueError("the factorisation has been closed")
         b = checked_right_side(right, self.n)
-        return np.asfortranarray(self._lu.solve(b)) if b.size else b.copy()
+        x = room_for_solution(b, out)
+        if b.size:
+            x[...] = self._lu.solve(b)
+        return x
 
     def close(self) -> None:
         """Release the memory of the factor."""

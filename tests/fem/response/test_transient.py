@@ -1,5 +1,8 @@
 """Direct transient: literal formula, closed forms, order, energy, blocks, observers."""
 
+import threading
+import time as clock
+
 import numpy as np
 import pytest
 import scipy.sparse as sp
@@ -343,4 +346,57 @@ def test_bad_arguments_are_named():
     with pytest.raises(SingularMatrixError):
         direct_transient(
             sp.csr_matrix((2, 2)), sp.csr_matrix(np.diag([1.0, 0.0])), steps=[(5, 0.1)]
+        )
+
+
+class _Slow:
+    """Takes a while over each chunk, then keeps what the chunk holds by then."""
+
+    def begin(self, time, cases, size):
+        self.thread, self.kept = set(), np.zeros((len(time), cases, size))
+
+    def observe(self, chunk):
+        self.thread.add(threading.get_ident())
+        clock.sleep(0.002)
+        rows = slice(chunk.first, chunk.first + len(chunk.time))
+        self.kept[rows] = chunk.get("displacement")
+
+    def memory_bytes(self, times, cases, size):
+        return 8 * times * cases * size
+
+
+@pytest.mark.parametrize("scheme", SCHEMES[:2])
+def test_chunks_stand_still_while_they_are_observed(monkeypatch, scheme):
+    """Steps go on beside a slow observer, in other memory."""
+    monkeypatch.setattr(f"{type(scheme).__module__}.window_length", lambda *_: 4)
+    stiffness, mass, _, pattern = random_system()
+    slow, quick = _Slow(), Observation("displacement")
+    for observer in (quick, slow):
+        direct_transient(
+            stiffness,
+            mass,
+            steps=[(37, 1e-2), (10, 2e-2, 3)],
+            load=TransientLoad(pattern, wave),
+            observers=[observer],
+            scheme=scheme,
+        )
+    assert (slow.kept == quick.values).all()
+    assert slow.thread == slow.thread - {threading.get_ident()}
+
+
+class _Failing(_Slow):
+    def observe(self, chunk):
+        raise ArithmeticError("of the observer")
+
+
+@pytest.mark.parametrize("steps", [3, 200])
+def test_errors_of_observers_are_raised(steps):
+    stiffness, mass, _, pattern = random_system()
+    with pytest.raises(ArithmeticError, match="of the observer"):
+        direct_transient(
+            stiffness,
+            mass,
+            steps=[(steps, 1e-2)],
+            load=TransientLoad(pattern, wave),
+            observers=[_Failing()],
         )
