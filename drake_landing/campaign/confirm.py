@@ -1,7 +1,7 @@
 """Direct transients of chosen landings, in blocks, with the stress of every element."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import h5py
@@ -42,6 +42,14 @@ class BlockTask:
     folder: Path
     scheme: str
     keys: tuple[str, ...]
+
+    @property
+    def each(self) -> "list[BlockTask]":
+        """Its landings, one by one."""
+        return [
+            replace(self, numbers=(number,), ends=(end,), keys=(key,))
+            for number, end, key in zip(self.numbers, self.ends, self.keys)
+        ]
 
 
 def confirmed_file(folder: Path, number: int) -> Path:

@@ -5,11 +5,13 @@ scheduler that goes away, costs the tasks that were under way: these are submitt
 where workers are left, or by the next run, which finds the files of all others.
 """
 
+import errno
 import os
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from itertools import islice
+from typing import Any, TypeGuard, TypeVar
 
 from drake_landing.progress import Reporter
 from fem.errors import InputError
@@ -20,6 +22,7 @@ _THREADS = {
     name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 }
 _RETRIES = 2  # of a task whose worker was lost
+_UNDER_WAY = 512  # tasks that the scheduler knows
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -120,21 +123,57 @@ class Engine:
         lost: Callable[[T, str], None],
     ) -> Iterator[Any]:
         if self._client is None:
-            yield from map(function, tasks)
+            yield from self._here(function, tasks, lost)
             return
         from distributed import as_completed
 
-        futures = {
-            self._client.submit(function, task, pure=False, retries=_RETRIES): task
-            for task in tasks
-        }
-        for future in as_completed(list(futures)):
+        def submit(task: T) -> Any:
+            future = self._client.submit(function, task, pure=False, retries=_RETRIES)
+            task_of[future] = task
+            return future
+
+        task_of: dict[Any, T] = {}
+        waiting = iter(tasks)
+        # The scheduler's memory grows with the tasks it knows: it is given some at a
+        # time.
+        under_way = as_completed([submit(t) for t in islice(waiting, _UNDER_WAY)])
+        for future in under_way:
+            under_way.update([submit(t) for t in islice(waiting, 1)])
+            task = task_of.pop(future)
             if future.status == "finished":
                 yield future.result()
             else:
                 error = future.exception() if future.status == "error" else None
-                lost(
-                    futures[future], f"no worker survived it: {error or future.status}"
-                )
+                if no_space(error):
+                    raise error
+                lost(task, _why(error or future.status))
                 yield None
             future.release()
+
+    @staticmethod
+    def _here(
+        function: Callable[[T], Any],
+        tasks: Sequence[T],
+        lost: Callable[[T, str], None],
+    ) -> Iterator[Any]:
+        for task in tasks:
+            try:
+                yield function(task)
+            except Exception as error:
+                if no_space(error):
+                    raise
+                lost(task, _why(error))
+                yield None
+
+
+def no_space(error: object) -> TypeGuard[OSError]:
+    """Whether the disk is full: no case can leave its result until there is room."""
+    return isinstance(error, OSError) and error.errno in (errno.ENOSPC, errno.EDQUOT)
+
+
+def _why(error: object) -> str:
+    """What is told of a task without a result."""
+    text = str(error).strip() or type(error).__name__
+    return (
+        f"no worker survived it: {text}" if "Killed" in type(error).__name__ else text
+    )

@@ -103,7 +103,7 @@ def _floats(values: Any) -> str:
 
 def _data(result: CampaignResult, tables: Tables) -> dict[str, Any]:
     cases, campaign = tables["cases"], result.campaign
-    failures = cases.loc[cases.status != "done", ["case", "status", "remark"]]
+    failures = cases.loc[cases.remark != "", ["case", "status", "remark"]]
     return {
         "cases": _frame(cases),
         "hulls": _hulls(tables["section_hulls"]),

@@ -9,6 +9,7 @@ Everything that was computed is found again by a later run in the same folder.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import h5py
@@ -51,6 +52,7 @@ class CampaignResult:
             decide.
         within_band: landings that should be confirmed; more than `critical` where
             `confirm.most` is not enough.
+        unconfirmed: landings whose direct transient failed, and why.
         prepared: airframes by key.
         of_case: case -> key of its airframe.
     """
@@ -63,6 +65,7 @@ class CampaignResult:
     sample: tuple[int, ...]
     critical: tuple[int, ...]
     within_band: pd.DataFrame = field(repr=False)
+    unconfirmed: dict[int, str] = field(repr=False)
     prepared: dict[str, Prepared] = field(repr=False)
     of_case: dict[int, str] = field(repr=False)
 
@@ -78,8 +81,9 @@ class CampaignResult:
 
     @property
     def failed(self) -> list[int]:
-        """Cases without a result, or with one that cannot be trusted."""
-        return [int(n) for n, s in self.status.items() if s != "done"]
+        """Cases without a result, or with one that cannot be trusted or confirmed."""
+        flown = [int(n) for n, s in self.status.items() if s != "done"]
+        return sorted({*flown, *self.unconfirmed})
 
 
 def expand(campaign: Campaign) -> tuple[pd.DataFrame, list[Case]]:
@@ -137,11 +141,14 @@ def run_campaign(
         status = _statuses(tasks)
         flown = [n for n in status.index if status[n] == "done"]
         sample = _sample(campaign, flown)
-        _confirm(campaign, pool_, tasks, sample, prepared, of_case, tell, "sample")
+        confirm = partial(_confirm, campaign, pool_, tasks, prepared, of_case, tell)
+        missed = confirm(sample, "sample")
+        sample = [n for n in sample if n not in missed]
         errors, wanted = _decide(campaign, flown, sample, prepared, of_case, out)
-        critical = [n for n in wanted.index if n not in set(sample)]
+        critical = [n for n in wanted.index if n not in {*sample, *missed}]
         critical = [int(n) for n in critical[: campaign.confirm.most]]
-        _confirm(campaign, pool_, tasks, critical, prepared, of_case, tell, "critical")
+        missed |= confirm(critical, "critical")
+        critical = [n for n in critical if n not in missed]
     result = CampaignResult(
         campaign=campaign,
         folder=out,
@@ -151,6 +158,7 @@ def run_campaign(
         sample=tuple(sample),
         critical=tuple(critical),
         within_band=wanted,
+        unconfirmed=missed,
         prepared=prepared,
         of_case=of_case,
     )
@@ -225,6 +233,11 @@ def _has(path: Path, key: str) -> bool:
 
 
 def _fly(pool: Engine, tasks: Sequence[LandingTask], tell: Reporter) -> None:
+    for task in tasks:
+        # A transient of another content must not stand for that of this landing.
+        old = confirmed_file(task.folder, task.number)
+        if old.is_file() and not _has(old, _confirmed_key(task)):
+            old.unlink()
     missing = [t for t in tasks if not _has(case_file(t.folder, t.number), t.key)]
     found = len(tasks) - len(missing)
     tell.stage(
@@ -263,14 +276,18 @@ def _confirm(
     campaign: Campaign,
     pool: Engine,
     tasks: Sequence[LandingTask],
-    numbers: Sequence[int],
     prepared: dict[str, Prepared],
     of_case: dict[int, str],
     tell: Reporter,
+    numbers: Sequence[int],
     what: str,
-) -> None:
-    """Direct transients of landings that have none yet, in blocks of one airframe."""
-    key_of = {t.number: content_key("transient", t.key) for t in tasks}
+) -> dict[int, str]:
+    """Direct transients of landings that have none yet, in blocks of one airframe.
+
+    Returns:
+        Landings that could not be integrated, and why.
+    """
+    key_of = {t.number: _confirmed_key(t) for t in tasks}
     folder = tasks[0].folder if tasks else Path()
     missing = [n for n in numbers if not _has(confirmed_file(folder, n), key_of[n])]
     tell.stage(f"direct transients of {len(missing)} landings ({what})")
@@ -297,11 +314,20 @@ def _confirm(
                 )
             )
 
-    def lost(task: BlockTask, why: str) -> None:
-        tell.share(0.0, f"cases {task.numbers} have no transient: {why}")
-
-    for _ in pool.run(run_block, blocks, lost, tell):
+    failed: list[tuple[BlockTask, str]] = []
+    for _ in pool.run(run_block, blocks, lambda *found: failed.append(found), tell):
         pass
+    # One landing that cannot be integrated must not take its block with it.
+    again = [one for block, _ in failed if len(block.numbers) > 1 for one in block.each]
+    failed = [found for found in failed if len(found[0].numbers) == 1]
+    for _ in pool.run(run_block, again, lambda *found: failed.append(found), tell):
+        pass
+    return {task.numbers[0]: f"no direct transient: {why}" for task, why in failed}
+
+
+def _confirmed_key(task: LandingTask) -> str:
+    """Of everything that its direct transient depends on."""
+    return content_key("transient", task.key)
 
 
 def _end(folder: Path, number: int, tail: float) -> float:
@@ -339,6 +365,8 @@ def failure_message(result: CampaignResult, number: int) -> str:
     """Why a case has no result that can be trusted."""
     import json
 
+    if number in result.unconfirmed:
+        return result.unconfirmed[number]
     path = failure_file(result.cases, number)
     if path.is_file():
         return str(json.loads(path.read_text(encoding="utf-8"))["message"])

@@ -126,6 +126,7 @@ def _cases(result: CampaignResult) -> pd.DataFrame:
             row |= _peaks(case_file(result.cases, number))
         else:
             row["remark"] = failure_message(result, number)
+        row["remark"] = result.unconfirmed.get(int(number), row["remark"])
         row["confirmed"] = number in result.sample or number in result.critical
         rows.append(row)
     return pd.DataFrame(rows)

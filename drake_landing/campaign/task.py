@@ -17,6 +17,7 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.campaign.basis import amplitudes
+from drake_landing.campaign.engine import no_space
 from drake_landing.campaign.hulls import hull_rows
 from drake_landing.campaign.screening import Screened, screen
 from drake_landing.campaign.setup import LandingSetup, SetupFile, read_landing_setup
@@ -85,6 +86,8 @@ def run_task(task: LandingTask) -> tuple[int, Status]:
     try:
         status = _run(task)
     except Exception as error:  # whatever it is: a case never ends a campaign
+        if no_space(error):
+            raise
         known = isinstance(error, InputError) or getattr(error, "for_users", False)
         write_failure(
             task.folder,

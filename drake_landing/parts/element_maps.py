@@ -58,7 +58,7 @@ class Extension:
         given = sp.coo_matrix(operator)
         place = self.place[given.col]
         keep = (place >= 0) & (given.data != 0.0)
-        shape = (given.shape[0], self.size)
+        shape = (shape_of(operator)[0], self.size)
         entries = given.data[keep], (given.row[keep], place[keep])
         return sp.csr_matrix(entries, shape=shape)
 

@@ -72,8 +72,15 @@ class StressExtremes:
         self.time, self.state = time, Extremes.zero(self.size, cases + apart)
 
     def observe(self, chunk: Chunk) -> None:
-        """Take the extremes of a chunk; see `Observer`."""
+        """Take the extremes of a chunk; see `Observer`.
+
+        Raises:
+            ArithmeticError: displacements are not finite.
+        """
         window = chunk.get("displacement")
+        if not np.isfinite(window[-1:]).all():
+            at = f"before {chunk.time[-1]:.4g} s"
+            raise ArithmeticError(f"displacements are not finite any more {at}")
         total = self.state.square.shape[1]
         # All tiles alike: a short one at the end would leave lanes empty.
         tiles = max(1, round(len(window) * total / _LANES))

@@ -9,6 +9,7 @@ import numpy.typing as npt
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.stress_extremes import Steady, StressExtremes
 from drake_landing.parts.stress_rows import Extremes, stress_maps
+from fem.algebra.sparse_products import shape_of
 from fem.response.observation import Chunk
 
 Float64 = npt.NDArray[np.float64]
@@ -107,7 +108,7 @@ class StressWatch:
     def arrays(self) -> dict[str, npt.NDArray]:
         """All that was found, for `restore`."""
         worst, state = list(self.worst.values()), self._seen.state
-        _, size = self.stresses.expand.shape
+        _, size = shape_of(self.stresses.expand)
         return {
             "instants": self._seen.time,
             **{name: getattr(state, name) for name in _STATE},

@@ -1,11 +1,15 @@
 """A campaign of a beam aircraft: screening, confirmation, resume, failures, decks."""
 
+import errno
 import shutil
+import threading
+import time as clock
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pandas as pd
+import psutil
 import pytest
 
 from drake_landing.campaign.cases import load_campaign
@@ -22,6 +26,7 @@ from drake_landing.campaign.task import case_file
 from drake_landing.cli import app
 from fem import read_deck, run_deck
 from fem.errors import InputError
+from fem.files.hdf5_aside import written_hdf5
 
 HERE = Path(__file__).parents[1]
 CAMPAIGN = """\
@@ -143,6 +148,100 @@ def test_a_case_that_cannot_be_flown_does_not_stop_the_others(tmp_path: Path) ->
     page = (tmp_path / "out" / "campaign.html").read_text()
     assert "no gear has a brake" in page
     assert "Not measured" in page
+
+
+def _tables(folder: Path) -> dict[str, bytes]:
+    return {p.name: p.read_bytes() for p in sorted((folder / "tables").iterdir())}
+
+
+def _again(result: CampaignResult, folder: Path) -> CampaignResult:
+    """Goes on with a copy of a campaign's folder."""
+    shutil.copytree(result.folder, folder, dirs_exist_ok=True)
+    return run_campaign(result.campaign, folder, Pool(scheduler="here"))
+
+
+def test_a_landing_that_cannot_be_integrated_leaves_its_block_alone(
+    result: CampaignResult, tmp_path: Path
+) -> None:
+    bad, good = result.sample
+    shutil.copytree(result.folder, tmp_path, dirs_exist_ok=True)
+    with h5py.File(case_file(tmp_path / "cases", bad), "a") as file:
+        file["loads/load"][3] = np.nan
+    for number in result.sample:
+        confirmed_file(tmp_path / "cases", number).unlink()
+    found = run_campaign(result.campaign, tmp_path, Pool(scheduler="here"))
+    assert found.sample == (good,)
+    assert found.failed == [bad]
+    assert "NaN" in failure_message(found, bad)
+    cases = pd.read_parquet(tmp_path / "tables" / "cases.parquet").set_index("case")
+    assert "no direct transient" in cases.remark[bad]
+    assert not cases.confirmed[bad]
+    assert "no direct transient" in (tmp_path / "campaign.html").read_text()
+
+
+def test_a_transient_of_another_landing_does_not_stand_for_it(
+    result: CampaignResult, tmp_path: Path
+) -> None:
+    """A file of an earlier state of the campaign is not what is known of a case."""
+    cases = tmp_path / "cases"
+    shutil.copytree(result.cases, cases)
+    left = next(n for n in result.flown if n not in {*result.sample, *result.critical})
+    with h5py.File(confirmed_file(cases, left), "w") as file:
+        file.attrs["key"] = "of another state"
+    found = _again(result, tmp_path)
+    assert not confirmed_file(cases, left).exists()
+    assert _tables(found.folder) == _tables(result.folder)
+
+
+def test_full_disk_ends_the_campaign_which_then_goes_on(
+    result: CampaignResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    written = []
+
+    def full(path: Path):
+        written.append(path)
+        if len(written) > 2:
+            raise OSError(errno.ENOSPC, "No space left on device", str(path))
+        return written_hdf5(path)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("drake_landing.campaign.task.written_hdf5", full)
+        with pytest.raises(OSError, match="No space left"):
+            run_campaign(result.campaign, tmp_path, Pool(scheduler="here"))
+    there = sorted((tmp_path / "cases").glob("*.h5"))
+    assert [p.name for p in there] == ["000000.h5", "000001.h5"]
+    before = [p.stat().st_mtime_ns for p in there]
+    run_campaign(result.campaign, tmp_path, Pool(scheduler="here"))
+    assert [p.stat().st_mtime_ns for p in there] == before
+    assert _tables(tmp_path) == _tables(result.folder)
+
+
+@pytest.mark.slow
+def test_two_workers_one_of_them_killed_find_the_same(
+    result: CampaignResult, tmp_path: Path
+) -> None:
+    """Byte by byte; the task of the worker that dies is done by another."""
+    cases, killed = tmp_path / "cases", []
+
+    def kill() -> None:
+        end = clock.monotonic() + 60.0
+        while not list(cases.glob("*.h5")) and clock.monotonic() < end:
+            clock.sleep(0.02)
+        workers = [
+            p
+            for p in psutil.Process().children(recursive=True)
+            if "spawn_main" in " ".join(p.cmdline())
+        ]
+        workers[0].kill()
+        killed.append(workers[0].pid)
+
+    thread = threading.Thread(target=kill)
+    thread.start()
+    found = run_campaign(result.campaign, tmp_path, Pool(workers=2))
+    thread.join()
+    assert len(killed) == 1
+    assert found.failed == []
+    assert _tables(tmp_path) == _tables(result.folder)
 
 
 def test_every_problem_of_every_case_is_named_once(tmp_path: Path) -> None:
