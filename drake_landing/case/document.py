@@ -23,6 +23,7 @@ _UNBOUNDED = re.compile(r"[-+]?\.(?:inf|Inf|INF)$|\.(?:nan|NaN|NAN)$")
 _LEADING_ZERO = re.compile(r"[-+]?0\d+$")
 _NULL = ("", "~", "null", "Null", "NULL")
 _BOOLEAN = {w: w.lower() for w in "true True TRUE false False FALSE".split()}
+_SEPARATOR = re.compile("[\x85\u2028\u2029]")
 _SURROGATE = re.compile("[\ud800-\udfff]")
 _WORDS = {
     "mapping values are not allowed here": "a ':' where none can be; text with a colon "
@@ -57,6 +58,32 @@ def read_document(text: str, file: str) -> tuple[Any, yaml.Node | None]:
     if reader.problems:
         raise InputError(reader.problems)
     return data, tree
+
+
+def document_text(data: Any) -> str:
+    """Plain values as YAML that `read_document` gives back unchanged.
+
+    PyYAML writes for YAML 1.1: words that mean a number since 1.2 (1e3, 0o17) and the
+    line separators of Unicode, which it would fold into blanks, go between quotes.
+
+    Args:
+        data: mappings, lists, text, numbers, booleans, None.
+    """
+    return yaml.dump(data, Dumper=_Writer, sort_keys=False, allow_unicode=True)
+
+
+class _Writer(yaml.SafeDumper):
+    """SafeDumper whose plain words mean themselves in YAML 1.2."""
+
+    def text(self, value: str) -> yaml.Node:
+        other = any(p.match(value) for p in (_INTEGER, _FLOAT, _UNBOUNDED))
+        quoted = other or _SEPARATOR.search(value)
+        return self.represent_scalar(
+            "tag:yaml.org,2002:str", value, style='"' if quoted else None
+        )
+
+
+_Writer.add_representer(str, _Writer.text)
 
 
 def _check_events(text: str, file: str) -> None:

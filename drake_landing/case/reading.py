@@ -14,7 +14,7 @@ import yaml
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
-from drake_landing.case.document import read_document
+from drake_landing.case.document import document_text, read_document
 from drake_landing.case.places import Places
 from drake_landing.case.schema import Case
 from fem.errors import InputError, nearest
@@ -110,7 +110,7 @@ def parse_model(
 def case_text(case: Case) -> str:
     """The case as YAML, all defaults written out."""
     data = json.loads(case.model_dump_json())
-    return yaml.safe_dump(data, sort_keys=False, allow_unicode=True)
+    return document_text(data)
 
 
 def schema_text() -> str:

@@ -4,11 +4,10 @@ import contextlib
 from pathlib import Path
 
 import pytest
-import yaml
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from drake_landing.case.document import read_document
+from drake_landing.case.document import document_text, read_document
 from drake_landing.case.reading import parse_case
 from fem.errors import InputError
 
@@ -139,10 +138,12 @@ PLAIN = st.recursive(
 
 
 @given(PLAIN)
+@example({"\x85": None})  # a line separator that YAML folds
+@example("a\u2028\u2029 b")
+@example(["1e3", "0o17", "010", "0x1F", ".5", "true", "~", "<<", "1:10", ".nan"])
 @settings(max_examples=100, deadline=None)
-def test_what_is_dumped_is_read(value):
-    text = yaml.safe_dump({"a": value}, allow_unicode=True)
-    assert data(text) == {"a": value}
+def test_what_is_written_is_read(value):
+    assert data(document_text({"a": value})) == {"a": value}
 
 
 @given(st.text(max_size=60))
