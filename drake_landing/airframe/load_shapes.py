@@ -26,6 +26,7 @@ from drake_landing.airframe.relevance import ModalModel
 from drake_landing.airframe.selection import modal_model
 from drake_landing.cache import Arrays, Cache, content_key
 from fem.algebra.linear_solver import factorize
+from fem.algebra.orthonormal import orthonormal_rest
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
@@ -105,19 +106,9 @@ def _krylov(
     basis = rigid
     block = solve(loads)
     while len(block.T) and len(basis.T) < _MOST + len(rigid.T):
-        block = _orthonormal(block, basis, mass)[:, : _MOST + len(rigid.T)]
+        block = orthonormal_rest(block, basis, mass, _DEPENDENT)[
+            :, : _MOST + len(rigid.T)
+        ]
         basis = np.hstack([basis, block])
         block = solve(mass @ block) if len(block.T) else block
     return basis[:, len(rigid.T) :][:, :_MOST]
-
-
-def _orthonormal(block: Float64, basis: Float64, mass: sp.csr_matrix) -> Float64:
-    """What a block has beyond a basis; dependent vectors are left out."""
-    size = np.sqrt(np.einsum("fi,fi->i", block, mass @ block))
-    block = block[:, size > 0.0] / size[size > 0.0]
-    for _ in range(2):  # once is not enough where much is taken away
-        block = block - basis @ (basis.T @ (mass @ block))
-        values, turn = np.linalg.eigh(block.T @ (mass @ block))
-        counts = values > _DEPENDENT**2
-        block = block @ (turn[:, counts] / np.sqrt(values[counts]))
-    return block

@@ -19,10 +19,10 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
 from scipy.signal import lfilter
 
 from drake_landing.airframe.pulses import GearPulses
+from fem.response.propagator import propagator_of
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -113,19 +113,14 @@ def modal_accelerations(
         (t, n).
     """
     omega2 = (2.0 * np.pi * frequency_hz) ** 2
-    n = len(omega2)
-    system = np.zeros((n, 4, 4))  # q, q', force, its rate
-    system[:, 0, 1] = system[:, 1, 2] = system[:, 2, 3] = 1.0
-    system[:, 1, 0], system[:, 1, 1] = -omega2, -damping
-    exact = scipy.linalg.expm(system * step)
-    a, of_force, of_rate = exact[:, :2, :2], exact[:, :2, 2], exact[:, :2, 3]
+    exact = propagator_of(omega2, np.diag(damping), step)
+    a = exact.e
     trace = a[:, 0, 0] + a[:, 1, 1]
     determinant = a[:, 0, 0] * a[:, 1, 1] - a[:, 0, 1] * a[:, 1, 0]
     result = force.copy()
-    rate = np.diff(force, axis=0) / step
-    for i in range(n):
+    for i in range(len(omega2)):
         # x(k+1) = A x(k) + g(k), as a scalar recurrence of both components.
-        g = np.outer(force[:-1, i], of_force[i]) + np.outer(rate[:, i], of_rate[i])
+        g = np.outer(force[:-1, i], exact.f[i]) + np.outer(force[1:, i], exact.h[i])
         g[1:] += g[:-1] @ (a[i] - trace[i] * np.eye(2)).T
         poles = [1.0, -trace[i], determinant[i]]
         x = np.asarray(lfilter([1.0], poles, g, axis=0))

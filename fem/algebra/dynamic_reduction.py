@@ -17,10 +17,11 @@ import scipy.sparse as sp
 
 from fem.algebra.linear_solver import SolverName, factorize
 from fem.algebra.modes import Modes
+from fem.algebra.orthonormal import orthonormal_rest
 from fem.arrays import Float64
 
 _RANDOM = 12
-_DEPENDENT = 1e-10  # of the largest: M-norm at which a direction is round-off
+_DEPENDENT = 1e-5  # share of a vector that inverse iteration leaves as round-off
 
 
 def ritz_modes(
@@ -48,7 +49,8 @@ def ritz_modes(
     wanted = min(2 * count, len(load))
     with factorize(k_oo, solver=solver) as factor:
         while basis.shape[1] < wanted:
-            block = _orthonormal(m_oo, basis, factor.solve(np.asfortranarray(block)))
+            solved = factor.solve(np.asfortranarray(block))
+            block = orthonormal_rest(solved, basis, m_oo, _DEPENDENT)
             if block.shape[1] == 0:
                 break
             basis = np.hstack([basis, block])
@@ -61,15 +63,3 @@ def ritz_modes(
         rigid=0,
         sturm=(),
     )
-
-
-def _orthonormal(m_oo: sp.csr_matrix, basis: Float64, block: Float64) -> Float64:
-    """Independent part of a block, M-orthonormal to itself and to a basis."""
-    block = block / np.maximum(np.linalg.norm(block, axis=0), np.finfo(float).tiny)
-    for _ in range(2):
-        block = block - basis @ (basis.T @ (m_oo @ block))
-        gram = block.T @ (m_oo @ block)
-        size, turn = scipy.linalg.eigh(0.5 * (gram + gram.T))
-        keep = size > _DEPENDENT * max(size.max(initial=0.0), np.finfo(float).tiny)
-        block = block @ (turn[:, keep] / np.sqrt(size[keep]))
-    return block

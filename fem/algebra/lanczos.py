@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.linalg
 import scipy.sparse as sp
 
+from fem.algebra.orthonormal import orthonormal_block
 from fem.arrays import Float64
 
 Solve = Callable[[Float64], Float64]
@@ -107,13 +107,13 @@ class BlockLanczos:
         coefficients[near], rest = self._without(near, block)
         part, rest = self._without(slice(0, self._used), rest)
         coefficients += part
-        rest, norms = _orthonormal_block(rest, self._mass, _RANK_TOLERANCE * scale)
+        rest, norms = orthonormal_block(rest, self._mass, _RANK_TOLERANCE * scale)
         smallest = np.min(np.linalg.norm(norms, axis=1), initial=scale)
         if smallest < _CANCELLATION * scale or np.abs(part).max(initial=0) > smallest:
             # What shrinks once more was round-off.
             part, rest = self._without(slice(0, self._used), rest)
             coefficients += part @ norms
-            rest, again = _orthonormal_block(rest, self._mass, 0.1)
+            rest, again = orthonormal_block(rest, self._mass, 0.1)
             norms = again @ norms
         return coefficients, rest, norms
 
@@ -216,27 +216,3 @@ class BlockLanczos:
 
 def _columns_dot(a: Float64, b: Float64) -> Float64:
     return np.einsum("ij,ij->j", a, b)
-
-
-def _orthonormal_block(
-    block: Float64, mass: sp.csr_matrix, smallest: float
-) -> tuple[Float64, Float64]:
-    """M-orthonormal basis Q (n, r) of a block and norms R (r, k): block = Q R.
-
-    Directions with norms below `smallest` are dropped.
-    """
-    q, norms = _by_gram_matrix(block, mass, smallest)
-    # The square of the block's condition is lost in the Gram matrix: once more.
-    q, again = _by_gram_matrix(q, mass, 0.1)
-    return q, again @ norms
-
-
-def _by_gram_matrix(
-    block: Float64, mass: sp.csr_matrix, smallest: float
-) -> tuple[Float64, Float64]:
-    gram = block.T @ (mass @ block)
-    values, vectors = scipy.linalg.eigh(0.5 * (gram + gram.T))
-    keep = values > max(smallest**2, float(np.finfo(float).tiny))
-    roots = np.sqrt(values[keep])
-    inverse = vectors[:, keep] / roots
-    return np.asfortranarray(block @ inverse), roots[:, None] * vectors[:, keep].T

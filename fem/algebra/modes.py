@@ -14,6 +14,7 @@ import scipy.sparse as sp
 
 from fem.algebra.eigenproblem import EigenProblem, ModesError, Progress
 from fem.algebra.linear_solver import SolverName
+from fem.algebra.orthonormal import gram_schmidt, nearest_orthonormal, rank
 from fem.algebra.sturm import SturmCount
 from fem.arrays import Float64
 
@@ -111,7 +112,7 @@ def _finish(
     rigid_body: Float64 | None,
 ) -> Modes:
     """Orthonormal shapes, exact zeros for rigid-body motions, fixed signs."""
-    shapes = _orthonormal(shapes, m)
+    shapes = nearest_orthonormal(shapes, m)
     rigid = rigid_energy(k, shapes) <= _RIGID_ENERGY
     values = np.where(rigid, 0.0, values)
     order = np.argsort(values, kind="stable")
@@ -119,9 +120,9 @@ def _finish(
     count = int(np.sum(rigid))
     if rigid_body is not None and count:
         known = rigid_body[:, rigid_energy(k, rigid_body) <= _RIGID_ENERGY]
-        if known.shape[1] >= count and _rank(known, m) == count:
-            shapes = _orthonormal(
-                np.hstack([_gram_schmidt(known, m), shapes[:, count:]]), m
+        if known.shape[1] >= count and rank(known, m) == count:
+            shapes = nearest_orthonormal(
+                np.hstack([gram_schmidt(known, m), shapes[:, count:]]), m
             )
     if shapes.size:
         largest = np.argmax(np.abs(shapes), axis=0)
@@ -143,34 +144,3 @@ def rigid_energy(stiffness: sp.csr_matrix, motion: Float64) -> Float64:
     parts = np.einsum("ij,ij->j", np.abs(motion), absolute @ np.abs(motion))
     energy = np.abs(np.einsum("ij,ij->j", motion, stiffness @ motion))
     return energy / np.where(parts > 0.0, parts, 1.0)
-
-
-def _orthonormal(shapes: Float64, mass: sp.csr_matrix) -> Float64:
-    """The M-orthonormal basis that is nearest to nearly orthonormal shapes."""
-    if shapes.shape[1] == 0:
-        return shapes
-    gram = shapes.T @ (mass @ shapes)
-    values, vectors = np.linalg.eigh(0.5 * (gram + gram.T))
-    return shapes @ (vectors / np.sqrt(values)) @ vectors.T
-
-
-def _gram_schmidt(vectors: Float64, mass: sp.csr_matrix) -> Float64:
-    """M-orthonormal basis of the span of vectors that may depend on each other."""
-    chosen: list[Float64] = []
-    for vector in vectors.T:
-        length = np.sqrt(vector @ (mass @ vector))
-        rest = vector
-        for _ in range(2):
-            for other in chosen:
-                rest = rest - other * (other @ (mass @ rest))
-        norm = np.sqrt(max(rest @ (mass @ rest), 0.0))
-        if norm > 1e-8 * length:
-            chosen.append(rest / norm)
-    return np.stack(chosen, axis=1)
-
-
-def _rank(vectors: Float64, mass: sp.csr_matrix) -> int:
-    gram = vectors.T @ (mass @ vectors)
-    scale = np.sqrt(np.diag(gram))
-    scale = np.where(scale > 0.0, scale, 1.0)
-    return int(np.sum(np.linalg.eigvalsh(gram / np.outer(scale, scale)) > 1e-12))

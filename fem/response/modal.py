@@ -10,23 +10,21 @@ Reference: MSC Nastran Dynamic Analysis User's Guide, modal transient, residual 
 """
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-import scipy.linalg
 import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
 from fem.algebra.linear_solver import SolverName, factorize
 from fem.algebra.modes import Modes
+from fem.algebra.orthonormal import orthonormal_rest
 from fem.algebra.statics import determinate_rows
 from fem.arrays import Float64
 from fem.response.observation import Observer, Quantity
+from fem.response.propagator import propagator_of
 from fem.response.system import TransientLoad
 from fem.response.time_grid import StepGroup, output_times, step_groups, window_length
-
-# Size of a residual vector, relative to its static response, that is round-off.
-_DEPENDENT = 1e-8
 
 
 def residual_vectors(
@@ -54,14 +52,7 @@ def residual_vectors(
         return modes
     static = _static_response(stiffness, mass, modes, loads, solver)
     phi = modes.shape
-    size = np.sqrt(np.einsum("ij,ij->j", static, mass @ static))
-    static = static[:, size > 0.0] / size[size > 0.0]
-    for _ in range(2):
-        static = static - phi @ (phi.T @ (mass @ static))
-    gram = static.T @ (mass @ static)
-    values, vectors = np.linalg.eigh(0.5 * (gram + gram.T))
-    new = values > _DEPENDENT**2
-    basis = static @ (vectors[:, new] / np.sqrt(values[new]))
+    basis = orthonormal_rest(static, phi, mass)
     if basis.shape[1] == 0:
         return modes
     energy = basis.T @ (stiffness @ basis)
@@ -95,54 +86,6 @@ def _static_response(
     with factorize(inner, solver=solver) as factor:
         response[keep] = factor.solve(balanced[keep])
     return response
-
-
-@dataclass(frozen=True)
-class _Propagator:
-    """x(n+1) = E x(n) + F f(n) + H f(n+1) for x = [q, q'] and loads f in modes.
-
-    Diagonal damping: 2 x 2 matrices per mode (m, 2, 2); else full (2m, 2m).
-    """
-
-    e: Float64
-    f: Float64
-    h: Float64
-
-    def step(self, x: Float64, f0: Float64, f1: Float64) -> Float64:
-        """Next state; x (c, 2, m), loads (c, m)."""
-        if self.e.ndim == 3:
-            return (
-                np.einsum("mij,cjm->cim", self.e, x)
-                + np.einsum("mi,cm->cim", self.f, f0)
-                + np.einsum("mi,cm->cim", self.h, f1)
-            )
-        c, _, m = x.shape
-        flat = x.reshape(c, 2 * m) @ self.e.T + f0 @ self.f.T + f1 @ self.h.T
-        return flat.reshape(c, 2, m)
-
-
-def _propagator(stiffness: Float64, damping: Float64, h: float) -> _Propagator:
-    """Exact propagator over one step with loads that vary linearly."""
-    m = len(stiffness)
-    if np.count_nonzero(damping - np.diag(np.diag(damping))) == 0:
-        a = np.zeros((m, 4, 4))
-        a[:, 0, 1] = 1.0
-        a[:, 1, 0], a[:, 1, 1] = -stiffness, -np.diag(damping)
-        # Augmented by load and its slope: x' = A x + b f, f' = s, s' = 0.
-        a[:, 1, 2] = 1.0
-        a[:, 2, 3] = 1.0 / h
-        e = scipy.linalg.expm(a * h)
-        level, slope = e[:, :2, 2], e[:, :2, 3]
-        return _Propagator(e[:, :2, :2], level - slope, slope)
-    a = np.zeros((4 * m, 4 * m))
-    one = np.eye(m)
-    a[:m, m : 2 * m] = one
-    a[m : 2 * m, :m], a[m : 2 * m, m : 2 * m] = -np.diag(stiffness), -damping
-    a[m : 2 * m, 2 * m : 3 * m] = one
-    a[2 * m : 3 * m, 3 * m :] = one / h
-    e = scipy.linalg.expm(a * h)[: 2 * m]
-    level, slope = e[:, 2 * m : 3 * m], e[:, 3 * m :]
-    return _Propagator(e[:, : 2 * m], level - slope, slope)
 
 
 class _ModalChunk:
@@ -225,7 +168,7 @@ def modal_transient(
     projection = _Projection(phi)
     done, total = 0, sum(group.count for group in groups)
     for group in groups:
-        propagator = _propagator(omega2, c_matrix, group.step)
+        propagator = propagator_of(omega2, c_matrix, group.step)
         forces = _modal_forces(load, pattern, group, len(state), modes.count)
         chunk_steps: list[int] = []
         kept: list[tuple[Float64, Float64]] = []
