@@ -16,8 +16,9 @@ export MPLBACKEND := Agg
 demo: $(READY)
 	$(BIN)/drake-landing demo
 
+# Files of tests side by side; each process takes up to 1.5 GB.
 test: check
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto --maxprocesses 4 --dist loadfile
 
 check: $(READY)
 	$(BIN)/ruff format --check .

@@ -13,6 +13,7 @@ from nbclient import NotebookClient
 
 FOLDER = Path(__file__).resolve().parents[1] / "notebooks"
 NOTEBOOKS = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
+LONG = {"05_studies"}  # a minute even when it is quick
 
 # Appended to a notebook as its last cell.
 ALWAYS = {
@@ -148,7 +149,10 @@ def test_imports_stand_in_the_first_code_cell(name):
 
 
 @pytest.mark.notebook
-@pytest.mark.parametrize("name", NOTEBOOKS)
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=pytest.mark.slow if n in LONG else ()) for n in NOTEBOOKS],
+)
 def test_notebook_runs(name):
     _execute(name, [ALWAYS[name]], full=False)
 

@@ -20,7 +20,7 @@ from fem.model.points import read_points
 from fem.solution import run_deck
 
 QUIET = settings(
-    max_examples=8,
+    max_examples=3,
     deadline=None,
     derandomize=True,
     phases=[Phase.explicit, Phase.generate],

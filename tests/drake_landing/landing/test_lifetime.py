@@ -54,8 +54,8 @@ def _growth(landing: LandingDiagram, count: int, duration: float, accuracy: floa
 
 def test_short_landings_do_not_grow_memory():
     landing = MakeLandingDiagram(aircraft_body(10), aircraft_gears())
-    growth, peaks = _growth(landing, 40, 0.03, 1e-2)
-    assert len({round(peak) for peak in peaks}) == 40
+    growth, peaks = _growth(landing, 25, 0.02, 1e-2)
+    assert len({round(peak) for peak in peaks}) == 25
     assert growth < ALLOWED
 
 

@@ -32,7 +32,7 @@ from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import aircraft_body
 
-STEP, DURATION = 2.5e-4, 0.2
+STEP, DURATION = 2.5e-4, 0.1
 R_WB = attitude(np.radians(1.5), np.radians(2.0), np.radians(3.0))
 W_B = angular_velocity(0.06, 0.02, -0.04)
 V_WG = np.array([-67.0, 1.0, -2.5])

@@ -28,6 +28,18 @@ PLAN = replace(
 )
 
 
+QUICK = replace(
+    PLAN,
+    name="quick",
+    selections=("count 0", "count 20"),
+    further_bases=(),
+    counts=(20,),
+    candidates=60.0,
+    simulation=Simulation(duration=0.05),
+    transient=Transient(step=5e-4),
+)
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return tmp_path_factory.mktemp("study")
@@ -38,12 +50,18 @@ def study(folder: Path) -> Study:
     return run_study(PLAN, folder / "out", cache=Cache(folder / "cache"))
 
 
+@pytest.fixture(scope="module")
+def quick(folder: Path) -> Study:
+    return run_study(QUICK, folder / "quick", cache=Cache(folder / "cache"))
+
+
 def vertical(study: Study, selection: str) -> pd.DataFrame:
     table = study.measures
     keep = (table["selection"] == selection) & (table["axis"] == "z")
     return table.loc[keep & table["point"].isin(PLAN.points)]
 
 
+@pytest.mark.slow
 def test_relevant_modes_come_closer_than_the_lowest(study: Study) -> None:
     rigid, reduced, lowest, relevant, combined = (
         vertical(study, s)["rms_error"].max() for s in PLAN.selections
@@ -53,14 +71,15 @@ def test_relevant_modes_come_closer_than_the_lowest(study: Study) -> None:
     assert reduced == pytest.approx(lowest, rel=0.1)  # a beam model loses nothing
 
 
-def test_budget_adds_up_to_the_difference(study: Study) -> None:
-    for run in study.runs:
+def test_budget_adds_up_to_the_difference(quick: Study) -> None:
+    for run in quick.runs:
         whole = run.landing.acceleration - run.transient
         np.testing.assert_allclose(
             run.budget.total, whole, atol=1e-9 * np.abs(whole).max()
         )
 
 
+@pytest.mark.slow
 def test_the_difference_is_truncation(study: Study) -> None:
     # Linear modes reproduce the multibody model, and the scheme of the transient.
     table = study.budgets[study.budgets["point"].isin(PLAN.points)]
@@ -71,6 +90,7 @@ def test_the_difference_is_truncation(study: Study) -> None:
     assert (elastic["truncation"] / elastic["total"]).between(0.6, 1.6).all()
 
 
+@pytest.mark.slow
 def test_truncation_was_expected(study: Study) -> None:
     table = study.budgets[study.budgets["point"].isin(PLAN.points)]
     ratio = table["expected"] / table["truncated"]
@@ -78,6 +98,7 @@ def test_truncation_was_expected(study: Study) -> None:
     assert ratio.between(1.0 / 3.0, 3.0).all()
 
 
+@pytest.mark.slow
 def test_interface_of_the_beam_aircraft_loses_nothing(study: Study) -> None:
     # Its masses sit at the nodes that the reduction keeps.
     table = study.bases[study.bases["point"].isin(PLAN.points)]
@@ -94,6 +115,7 @@ def test_interface_of_the_beam_aircraft_loses_nothing(study: Study) -> None:
     assert (budget.loc["count 40", "reduction"] == 0.0).all()
 
 
+@pytest.mark.slow
 def test_residual_vectors_do_not_cure_accelerations(study: Study) -> None:
     table = study.bases[study.bases["point"].isin(PLAN.points)]
     plain = table[table["set"] == "lowest 40"].set_index(["basis", "point"])
@@ -103,6 +125,7 @@ def test_residual_vectors_do_not_cure_accelerations(study: Study) -> None:
     assert more["rms_error"].max() > 0.3 * before
 
 
+@pytest.mark.slow
 def test_foreign_damping_leaves_a_gap_that_modes_do_not_close(study: Study) -> None:
     table = study.gaps[study.gaps["point"].isin(PLAN.points)]
     worst = table.groupby(["practice", "modes"])["rms_error"].max().to_dict()
@@ -113,16 +136,16 @@ def test_foreign_damping_leaves_a_gap_that_modes_do_not_close(study: Study) -> N
         assert worst[practice, 120] > 3.0 * worst[right, 120]
 
 
-def test_files(study: Study, folder: Path) -> None:
-    out = folder / "out"
+def test_files(quick: Study, folder: Path) -> None:
+    out = folder / "quick"
     table = pd.read_csv(out / "comparison.csv")
     assert list(table.columns) == COLUMNS
-    assert table["run"].nunique() == len(PLAN.selections)
+    assert table["run"].nunique() == len(QUICK.selections)
     assert set(pd.read_csv(out / "gears.csv")["gear"]) == {
         *("nose", "main_left", "main_right")
     }
     page = (out / "report.html").read_text(encoding="utf-8")
-    assert page.count("<svg") == len(study.runs) + 2
+    assert page.count("<svg") == len(quick.runs) + 2
     assert "<script" not in page
     for name in ("measures", "budget", "convergence", "bases", "spectra", "gaps"):
         assert len(pd.read_csv(out / f"{name}.csv"))
@@ -131,7 +154,7 @@ def test_files(study: Study, folder: Path) -> None:
 
 
 def test_second_time_computes_nothing(
-    study: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
+    quick: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def never(*_args: object) -> None:
         raise AssertionError("was to come from the cache")
@@ -139,19 +162,19 @@ def test_second_time_computes_nothing(
     monkeypatch.setattr("drake_landing.reference.studies.landings._fly", never)
     monkeypatch.setattr("drake_landing.reference.studies.transients._respond", never)
     monkeypatch.setattr("drake_landing.airframe.basis._elastic", never)
-    again = run_study(PLAN, folder / "again", cache=Cache(folder / "cache"))
-    pd.testing.assert_frame_equal(again.comparison, study.comparison)
+    again = run_study(QUICK, folder / "again", cache=Cache(folder / "cache"))
+    pd.testing.assert_frame_equal(again.comparison, quick.comparison)
 
 
 def test_an_interrupted_study_keeps_its_landings(
-    study: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
+    quick: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*_args: object) -> None:
         raise KeyboardInterrupt
 
     cache = Cache(folder / "other_cache")
     monkeypatch.setattr(story, "respond_all", interrupted)
-    plan = replace(PLAN, selections=("count 0",))
+    plan = replace(QUICK, selections=("count 0",))
     with pytest.raises(KeyboardInterrupt):
         run_study(plan, folder / "broken", cache=cache)
     monkeypatch.undo()
@@ -160,7 +183,7 @@ def test_an_interrupted_study_keeps_its_landings(
         lambda _task: pytest.fail("flown twice"),
     )
     resumed = run_study(plan, folder / "broken", cache=cache)
-    first = study.runs[0].landing.acceleration
+    first = quick.runs[0].landing.acceleration
     np.testing.assert_allclose(
         resumed.runs[0].landing.acceleration, first, atol=1e-9 * np.abs(first).max()
     )
