@@ -10,6 +10,7 @@ the spectrum of the pulse, not for loads.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -21,12 +22,14 @@ from drake_landing.gears.parameters import (
 )
 from fem.errors import InputError
 from systems.runway.runway import Runway
-from systems.shock_absorber.strut_law import StrutLaw
-from systems.tire.tire_law import TireLaw
+from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
+from systems.tire.tire_law import TireLaw, TireParameters
 
 Float64 = npt.NDArray[np.float64]
 
-_SUBSTEP = 1e-4  # s; tyre and unsprung mass vibrate at 10 to 50 Hz, the wheel slips out
+# s; tyre and unsprung mass vibrate at 10 to 50 Hz, the wheel slips out: 1e-5 of the
+# peaks. The finer one is for gears of stiffer parts.
+_SUBSTEPS = (2.5e-4, 2.5e-5)
 _LOW_SPEED = 0.5  # m/s, below which there is no spin-up
 
 
@@ -67,45 +70,106 @@ def drop_pulse(
         step: of the result, s.
         duration: s.
     """
-    law = _DropLaw(gear, share, forward_speed, friction)
     count = round(duration / step)
-    inner = max(1, int(np.ceil(step / _SUBSTEP)))
-    h = step / inner
-    x = [0.0, 0.0, sink_rate, sink_rate, 0.0]
-    rows = [law.loads(x)]
-    with np.errstate(over="ignore", invalid="ignore"):  # looked at below
-        for _ in range(count):
-            for _ in range(inner):
-                x = _runge_kutta(law.rate, x, h)
-            rows.append(law.loads(x))
-            if not np.isfinite(rows[-1]).all():
-                raise InputError(
-                    f"gears.{gear.name}: dropped by itself, its forces pass all bounds "
-                    f"after {step * (len(rows) - 1):.3g} s; expected softer damping or "
-                    "stiffness of its shock absorber or tire"
-                )
-    vertical, drag, stroke = np.array(rows).T
-    return DropPulse(
-        time=step * np.arange(count + 1), vertical=vertical, drag=drag, stroke=stroke
+    for substep in _SUBSTEPS:
+        rows = _fall(
+            _DropLaw.of(gear, share, forward_speed, friction),
+            sink_rate,
+            step / max(1, int(np.ceil(step / substep))),
+            step,
+            count,
+        )
+        if len(rows) > count:
+            vertical, drag, stroke = rows.T
+            return DropPulse(
+                time=step * np.arange(count + 1),
+                vertical=vertical,
+                drag=drag,
+                stroke=stroke,
+            )
+    raise InputError(
+        f"gears.{gear.name}: dropped by itself, its forces pass all bounds after "
+        f"{step * len(rows):.3g} s; expected softer damping or stiffness of its shock "
+        "absorber or tire"
     )
 
 
-class _DropLaw:
-    """Equations of motion; state: drop of airframe and of axle, their rates, spin."""
+@lru_cache(maxsize=32)  # mirror images, and the same gear asked for again
+def _fall(
+    law: "_DropLaw", sink_rate: float, substep: float, step: float, count: int
+) -> Float64:
+    """Rows (count + 1, 3) of the law's loads; fewer where they pass all bounds."""
+    inner = round(step / substep)
+    x = [0.0, 0.0, sink_rate, sink_rate, 0.0]
+    rows = [law.loads(x)]
+    with np.errstate(over="ignore", invalid="ignore"):
+        for _ in range(count):
+            for _ in range(inner):
+                x = _runge_kutta(law.rate, x, substep)
+            loads = law.loads(x)
+            if not np.isfinite(loads).all():
+                break
+            rows.append(loads)
+    found = np.array(rows)
+    found.flags.writeable = False
+    return found
 
-    def __init__(
-        self, gear: LandingGear, share: float, speed: float, friction: float
-    ) -> None:
-        self._wheels = len(gear.wheel_names)
-        self._share = share
-        self._sprung = share + gear.sprung_mass
-        self._unsprung = gear.mass - gear.sprung_mass
-        self._spin = gear.wheel.spin_inertia
-        self._speed, self._friction = speed, friction
-        strut = shock_absorber_parameters(gear.shock_absorber)
-        self._strut, self._tunables = StrutLaw(strut), strut.tunables
-        self._tyre = tire_parameters(gear.tyre)
-        self._tyre_law = TireLaw(self._tyre, Runway())
+
+@dataclass(frozen=True)
+class _DropLaw:
+    """Equations of motion; state: drop of airframe and of axle, their rates, spin.
+
+    Attributes:
+        strut, tyre: of one shock absorber and each tyre.
+        wheels: of the gear.
+        share, sprung, unsprung: kg; sprung is the share and the gear's own part.
+        spin: kg m², of one wheel.
+        speed: forward, m/s.
+        friction: factor on the tyres' friction.
+    """
+
+    strut: ShockAbsorberParameters
+    tyre: TireParameters
+    wheels: int
+    share: float
+    sprung: float
+    unsprung: float
+    spin: float
+    speed: float
+    friction: float
+
+    @classmethod
+    def of(
+        cls, gear: LandingGear, share: float, speed: float, friction: float
+    ) -> "_DropLaw":
+        return cls(
+            strut=shock_absorber_parameters(gear.shock_absorber),
+            tyre=tire_parameters(gear.tyre),
+            wheels=len(gear.wheel_names),
+            share=float(share),
+            sprung=float(share + gear.sprung_mass),
+            unsprung=float(gear.mass - gear.sprung_mass),
+            spin=float(gear.wheel.spin_inertia),
+            speed=float(speed),
+            friction=float(friction),
+        )
+
+    @cached_property
+    def _strut_law(self) -> StrutLaw:
+        return StrutLaw(self.strut)
+
+    @cached_property
+    def _tunables(self) -> list[float]:
+        return self.strut.tunables
+
+    @cached_property
+    def _tyre_law(self) -> TireLaw:
+        return TireLaw(self.tyre, Runway())
+
+    @cached_property
+    def _damping(self) -> float:
+        damping = self.tyre.damping
+        return damping if isinstance(damping, int | float) else max(damping.y)
 
     def rate(self, x: Sequence[float]) -> list[float]:
         _, _, v, w, _ = x
@@ -113,39 +177,32 @@ class _DropLaw:
         return [
             v,
             w,
-            -strut / self._sprung,
-            (strut - normal) / self._unsprung,
-            drag * radius / (self._wheels * self._spin),
+            -strut / self.sprung,
+            (strut - normal) / self.unsprung,
+            drag * radius / (self.wheels * self.spin),
         ]
 
     def loads(self, x: Sequence[float]) -> tuple[float, float, float]:
         """Vertical load and drag on the airframe (N), stroke (m)."""
         strut, _, drag, _ = self._forces(x)
-        return strut * self._share / self._sprung, drag, x[0] - x[1]
+        return strut * self.share / self.sprung, drag, x[0] - x[1]
 
     def _forces(self, x: Sequence[float]) -> tuple[float, float, float, float]:
         """Force of the strut, of all tyres: normal and drag; radius of the wheel."""
         z, u, v, w, omega = x
-        strut = self._strut.forces(z - u, v - w, 0.0, self._tunables).total
+        strut = self._strut_law.forces(z - u, v - w, 0.0, self._tunables).total
+        law = self._tyre_law
         normal = 0.0
         if u > 0.0:
-            damping = min(u / self._tyre.damping_ramp, 1.0) * self._damping
-            elastic = self._tyre_law.elastic_force(u)
-            normal = self._wheels * max(elastic + damping * w, 0.0)
-        radius = max(
-            self._tyre_law.rolling_radius(max(u, 0.0)), 0.5 * self._tyre.radius
-        )
+            damping = min(u / self.tyre.damping_ramp, 1.0) * self._damping
+            normal = self.wheels * max(law.elastic_force(u) + damping * w, 0.0)
+        radius = max(law.rolling_radius(max(u, 0.0)), 0.5 * self.tyre.radius)
         drag = 0.0
-        if normal > 0.0 and self._speed > _LOW_SPEED:
-            slip = (self._speed - radius * omega) / self._speed
-            ratio, _ = self._tyre_law.ratios(u, -slip, 0.0)
-            drag = self._friction * normal * ratio
+        if normal > 0.0 and self.speed > _LOW_SPEED:
+            slip = (self.speed - radius * omega) / self.speed
+            ratio, _ = law.ratios(u, -slip, 0.0)
+            drag = self.friction * normal * ratio
         return strut, normal, drag, radius
-
-    @property
-    def _damping(self) -> float:
-        damping = self._tyre.damping
-        return damping if isinstance(damping, int | float) else max(damping.y)
 
 
 def _runge_kutta(rate, x: list[float], h: float) -> list[float]:

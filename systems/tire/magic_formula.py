@@ -38,7 +38,7 @@ class MagicFormula:
         ValueError: one without which there is no formula is missing.
     """
 
-    coefficients: Mapping[str, float] = field(repr=False)
+    coefficients: Mapping[str, float] = field(repr=False, hash=False)
 
     def __post_init__(self) -> None:
         missing = [name for name in _NEEDED if name not in self.coefficients]
