@@ -100,7 +100,7 @@ def _duration(seconds: float) -> str:
 @app.command()
 def run(
     deck: Annotated[
-        Path, typer.Argument(help="Nastran deck (SOL 101, 103, 109, 112).")
+        Path, typer.Argument(help="Nastran deck (SOL 101, 103, 105, 109, 112).")
     ],
     out: Annotated[
         Path | None,

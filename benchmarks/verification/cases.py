@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.verification import (
+    buckling,
     cantilevers,
     commercial,
     curved_shells,
@@ -60,6 +61,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         commercial.trusses_and_beams,
         commercial.solid_shell_bar_statics,
         commercial.solid_shell_bar_modes,
+        commercial.solid_shell_bar_buckling,
         commercial.solid_shell_bar_transient,
         commercial.line_elements_transient,
         quadratic_solids.single_hexa20,
@@ -117,6 +119,13 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         drilling_shells.drilling_patches,
         drilling_shells.cook_membrane,
         drilling_shells.sheet_cantilever,
+    ),
+    "Linear buckling": (
+        buckling.euler_columns,
+        buckling.beams_sideways,
+        buckling.plates_that_buckle,
+        buckling.stiffened_panel,
+        buckling.solid_column,
     ),
     "Landing gear": (drop_tests.main_gear,),
 }

@@ -1,6 +1,7 @@
 """Reference decks with the figures that MSC, NX, NASTRAN-95 and others print."""
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -139,6 +140,38 @@ def solid_shell_bar_modes(references: Path) -> list[Row]:
     return rows + element_rows(
         case, ours, "modes", theirs, 1, "MSC 2005, OP2", sign=sign
     )
+
+
+def solid_shell_bar_buckling(references: Path) -> list[Row]:
+    """Load factors of the same structure under a force at its tip."""
+    folder = references / "solid_shell_bar"
+    bulk = (folder / "static_solid_shell_bar.bdf").read_text().split("BEGIN BULK")[1]
+    bulk = bulk.replace("INCLUDE 'geom.inc'", (folder / "geom.inc").read_text())
+    bulk = bulk.replace("AUTOSPC NO", "AUTOSPC YES")
+    bulk = re.sub(r"(?m)^(FORCE|SPC1|SPCADD|LOAD) .*\n", "", bulk)
+    more = """SPC1,9,123456,18,19,20,21
+SPC1,9,456,5,THRU,13
+FORCE,9,13,,1.-5,0.,0.,1.
+CELAS2,23,10.,21,1,25,1
+CELAS2,22,10.,21,1,25,1
+CSHEAR,28,9,17,16,20,21
+PSHEAR,9,1,.1
+CONROD,27,18,22,1,1.,2.
+EIGRL,9,,,4
+ENDDATA
+"""
+    case = "SPC = 9\nSUBCASE 1\n LOAD = 9\nSUBCASE 2\n METHOD = 9\nBEGIN BULK\n"
+    ours = run(f"SOL 105\nCEND\n{case}{bulk.split('ENDDATA')[0]}{more}")
+    return [
+        listed(
+            "buckling2_solid_shell_bar",
+            "load factors",
+            ours["buckling/2/factor"],
+            [-4.935766e10, -5.800194e10, -3.797507e11, -4.284625e11],
+            "MSC Nastran, OP2 of pyNastran's models",
+            target=SURFACES,
+        )
+    ]
 
 
 def solid_shell_bar_transient(references: Path) -> list[Row]:

@@ -99,6 +99,44 @@ def ritz_deflection(a: float, b: float, nu: float, *, terms: int = 14) -> float:
     return float(np.kron(middle, middle) @ np.linalg.solve(stiffness, load) / a**4)
 
 
+def ritz_buckling(
+    aspect: float,
+    forces: tuple[float, float, float],
+    nu: float,
+    *,
+    stringer: tuple[float, float] = (0.0, 0.0),
+    terms: int = 12,
+) -> float:
+    """Smallest positive k of a simply supported plate under k pi^2 D / b^2 forces.
+
+    Args:
+        aspect: length a over width b.
+        forces: compression along x and y, and shear, in parts of that.
+        nu: Poisson's ratio.
+        stringer: along the middle, gamma = E I / (b D) and delta = A / (b t); it
+            carries the strain of the sheet, and its load with it.
+        terms: polynomials in each direction.
+    """
+    edge = Polynomial([1.0, 0.0, -1.0])
+    basis = [edge * Legendre.basis(k).convert(kind=Polynomial) for k in range(terms)]
+    x, y = _integrals(basis, aspect), _integrals(basis, 1.0)
+    stiffness = (
+        np.kron(x["22"], y["00"])
+        + np.kron(x["00"], y["22"])
+        + nu * (np.kron(x["20"], y["02"]) + np.kron(x["02"], y["20"]))
+        + 2.0 * (1.0 - nu) * np.kron(x["11"], y["11"])
+    )
+    nxx, nyy, nxy = forces
+    work = nxx * np.kron(x["11"], y["00"]) + nyy * np.kron(x["00"], y["11"])
+    work -= nxy * (np.kron(x["10"], y["01"]) + np.kron(x["01"], y["10"]))
+    gamma, delta = stringer
+    middle = np.outer(*2 * [np.array([p(0.0) for p in basis])])
+    stiffness += gamma * np.kron(x["22"], middle)
+    work += nxx * delta * np.kron(x["11"], middle)
+    values = scipy.linalg.eigvalsh(work, stiffness)
+    return float(1.0 / values[-1] / np.pi**2)
+
+
 @dataclass(frozen=True, kw_only=True)
 class StepSeries:
     """Response of a simply supported square Mindlin plate to a sudden pressure.

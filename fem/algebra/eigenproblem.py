@@ -13,7 +13,7 @@ import numpy.typing as npt
 import scipy.linalg
 import scipy.sparse as sp
 
-from fem.algebra.lanczos import BlockLanczos, RitzPairs
+from fem.algebra.lanczos import BlockLanczos, RitzPairs, shift_inverted
 from fem.algebra.linear_solver import SingularMatrixError, SolverName, factorize
 from fem.algebra.sturm import SturmCount, count_below, hertz
 from fem.arrays import Float64
@@ -151,7 +151,7 @@ class EigenProblem:
             return -0.01 * high
         probe = self._probe_shift()
         with self._factorize(probe) as factor:
-            lanczos = BlockLanczos(factor.solve, self.mass)
+            lanczos = BlockLanczos(shift_inverted(factor.solve, self.mass), self.mass)
             while lanczos.size < 32 and not lanczos.exhausted:
                 lanczos.extend()
             theta = lanczos.ritz().theta
@@ -189,7 +189,7 @@ class EigenProblem:
                 if missing == 0 or lanczos.exhausted or attempt == _LAST_ATTEMPT:
                     break
                 target = max(target, *(c.counted for c in sturm))
-                _look_again(lanczos, pairs, missing)
+                look_again(lanczos, pairs, missing)
             chosen = converged[below:]
             shapes = lanczos.vectors(pairs, chosen)
         return values[chosen], shapes, sturm
@@ -272,7 +272,7 @@ class EigenProblem:
                 missing = wanted - len(chosen)
                 if missing <= 0 or lanczos.exhausted or attempt == _LAST_ATTEMPT:
                     break
-                _look_again(lanczos, pairs, missing)
+                look_again(lanczos, pairs, missing)
             return values[chosen], lanczos.vectors(pairs, chosen)
 
 
@@ -289,7 +289,8 @@ def _lanczos(
 ) -> BlockLanczos:
     """An iteration for `wanted` modes: small problems need few columns per block."""
     block = int(np.clip(wanted // 4, 4, 8))
-    return BlockLanczos(solve, mass, block=block, reserve=4 * wanted + 64)
+    operator = shift_inverted(solve, mass)
+    return BlockLanczos(operator, mass, block=block, reserve=4 * wanted + 64)
 
 
 def _grow(lanczos: BlockLanczos, wanted: int, progress: Progress) -> RitzPairs:
@@ -329,7 +330,7 @@ def _grow_between(
         look = lanczos.size + max(16, lanczos.size // 12)
 
 
-def _look_again(lanczos: BlockLanczos, pairs: RitzPairs, missing: int) -> None:
+def look_again(lanczos: BlockLanczos, pairs: RitzPairs, missing: int) -> None:
     """Keep what has converged and search in as many random directions as modes miss."""
     lanczos.keep(pairs, np.flatnonzero(pairs.residual < _CONVERGED))
     lanczos.restart_randomly(missing)

@@ -1,7 +1,8 @@
-"""Block Lanczos iteration for K x = λ M x around a shift σ.
+"""Block Lanczos iteration for an operator that is self-adjoint in an inner product M.
 
-The operator (K - σ M)⁻¹ M is self-adjoint in the inner product of M and has the
-eigenvalues θ = 1 / (λ - σ): modes near the shift converge first. The basis is kept
+For K x = λ M x around a shift σ it is (K - σ M)⁻¹ M with the eigenvalues
+θ = 1 / (λ - σ): modes near the shift converge first. For buckling it is -K⁻¹ K_d in the
+inner product of K. The basis is kept
 M-orthonormal by orthogonalising every new block twice against all of it, so that no
 spurious copies appear; blocks find multiple eigenvalues and make the solves cheap.
 M may be singular: iterates stay in the range of the operator, and the Ritz vectors
@@ -21,7 +22,7 @@ import scipy.sparse as sp
 from fem.algebra.orthonormal import orthonormal_block
 from fem.arrays import Float64
 
-Solve = Callable[[Float64], Float64]
+Operator = Callable[[Float64], Float64]
 
 _RANK_TOLERANCE = 1e-10
 # Share of a block's norm below which what the basis leaves of it is cleaned twice.
@@ -44,11 +45,11 @@ class RitzPairs:
 
 
 class BlockLanczos:
-    """A growing Lanczos basis of (K - σ M)⁻¹ M.
+    """A growing Lanczos basis.
 
     Args:
-        solve: x = (K - σ M)⁻¹ b for blocks b (n, k).
-        mass: (n, n) sparse M, positive semi-definite.
+        operator: applied to blocks (n, k).
+        mass: (n, n) sparse M of the inner product, positive semi-definite.
         block: columns that are iterated together.
         reserve: vectors that the basis will probably need; their memory is taken only
             when it is used.
@@ -57,14 +58,14 @@ class BlockLanczos:
 
     def __init__(
         self,
-        solve: Solve,
+        operator: Operator,
         mass: sp.csr_matrix,
         *,
         block: int = 8,
         reserve: int = 64,
         seed: int = 0,
     ) -> None:
-        self._solve = solve
+        self._operator = operator
         self._mass = mass
         self._n = len(mass.indptr) - 1
         self._block = min(block, self._n)
@@ -93,7 +94,7 @@ class BlockLanczos:
 
     def _apply(self, block: Float64) -> Float64:
         self.solved_columns += block.shape[1]
-        return self._solve(np.asfortranarray(self._mass @ block))
+        return self._operator(block)
 
     def _orthonormalise(self, block: Float64) -> tuple[Float64, Float64, Float64]:
         """Split a block: coefficients in the basis, orthonormal rest, its norms.
@@ -127,9 +128,7 @@ class BlockLanczos:
         columns = min(columns, self._n - self._used)
         block = self._random.standard_normal((self._n, columns))
         # One application leaves the null space of M behind.
-        return self._orthonormalise(self._solve(np.asfortranarray(self._mass @ block)))[
-            1
-        ]
+        return self._orthonormalise(self._operator(block))[1]
 
     def _reserve(self, columns: int) -> None:
         if self._used + columns <= self._basis.shape[1]:
@@ -212,6 +211,11 @@ class BlockLanczos:
                 self._apply(vectors) / pairs.theta[part]
             )
         return result
+
+
+def shift_inverted(solve: Operator, mass: sp.csr_matrix) -> Operator:
+    """(K - σ M)⁻¹ M from a solution x = (K - σ M)⁻¹ b."""
+    return lambda block: solve(np.asfortranarray(mass @ block))
 
 
 def _columns_dot(a: Float64, b: Float64) -> Float64:

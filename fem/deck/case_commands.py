@@ -36,7 +36,6 @@ NUMBERS = {
     "SDAMPING": "sdamping",
     "NSM": "nsm",
     "MASSSET": "massset",
-    "STATSUB": "statsub",
     "DEFORM": "deform",
 }
 NAMES = {
@@ -60,7 +59,6 @@ MODEL_REFUSED = {
 # They change what a solution of the deck's own finds, and nothing here does it.
 SOLUTION_REFUSED = {
     "P2G": "loads are given by load cards",
-    "STATSUB": "there is no stiffness from a preload",
     "SUPORT1": "SUPORT holds in all subcases",
     "BCONTACT": "there is no contact",
     "BCSET": "there is no contact",
@@ -95,7 +93,7 @@ _WITHOUT_EFFECT = """
 # Carried out by name.
 _OWN = """
     AUTOSPC OUTPUT PARAM SET SUBCASE SUBCOM SUBSEQ SUBSEQ1 SYM SYMCOM SYMSEQ REPCASE
-    TEMPERATURE
+    TEMPERATURE STATSUB
 """.split()
 
 SELECTIONS = (*NUMBERS, "TEMPERATURE", "SUBCASE", "SUBCOM")

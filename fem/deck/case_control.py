@@ -20,6 +20,8 @@ class Subcase:
     Attributes:
         temperature: set of temperatures that load (TEMPERATURE(LOAD)).
         initial_temperature: set of TEMPERATURE(INITIAL) or (MATERIAL).
+        statsub: static subcase whose load buckles (STATSUB, STATSUB(BUCKLING)).
+        preload: static subcase whose load stays (STATSUB(PRELOAD)).
         combination: subcases and factors that SUBCOM or SYMCOM adds up.
         not_carried_out: commands that would change what a solution of the deck's own
             finds and that nothing here carries out, each with its place.
@@ -47,6 +49,7 @@ class Subcase:
     nsm: int = 0
     massset: int = 0
     statsub: int = 0
+    preload: int = 0
     deform: int = 0
     temperature: int = 0
     initial_temperature: int = 0
@@ -319,6 +322,15 @@ class _Reader:
             self.change(initial_temperature=n)
         else:
             self.change(temperature=n)
+
+    def do_statsub(self, command: _Command) -> None:
+        """STATSUB(BUCKLING or PRELOAD) = static subcase; alone it is what buckles."""
+        if not self.refuse:
+            self.passed_over["STATSUB"] = None
+            return
+        kind = command.options[0] if command.options else "BUCKLING"
+        name = "preload" if kind.startswith("PREL") else "statsub"
+        self.change(**{name: number(command.value)})
 
     def do_super(self, command: _Command) -> None:
         """SUPER = ALL and SUPER = 0 mean all there is."""

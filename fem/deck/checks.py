@@ -164,6 +164,7 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
     ("ic", ("TIC",), _TRANSIENT),
     ("tstep", ("TSTEP",), _TRANSIENT),
     ("method", ("EIGRL",), _MODAL),
+    ("method", ("EIGRL", "EIGB"), (105,)),
     ("nsm", ("NSM", "NSML", "NSMADD"), ()),
     ("massset", ("MASSSET",), ()),
 )

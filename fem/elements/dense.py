@@ -41,6 +41,17 @@ class DenseBlock:
         """(e, n, n), None: no viscous damping."""
         return None
 
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64 | None:
+        """(e, n, n) what internal forces add to the stiffness; None: nothing.
+
+        Args:
+            motion: (e, n) displacements that strain the elements, of their freedoms.
+            load: (e, n) loads that act on the elements between their grids (PLOAD1).
+        """
+        return None
+
     def expansion(self) -> Float64 | None:
         """(e, n) displacements of an element that expands freely, per degree.
 

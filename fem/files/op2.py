@@ -19,7 +19,16 @@ from fem.arrays import Float64, Int64
 from fem.elements.connectivity import element_grids
 from fem.files.aside import written_aside
 from fem.files.op2_elements import Elements, layout_of, plies_of, ply_words, words
-from fem.files.op2_records import DEVICE, MODAL, STATIC, TRANSIENT, Kind, Op2File, State
+from fem.files.op2_records import (
+    BUCKLING,
+    DEVICE,
+    MODAL,
+    STATIC,
+    TRANSIENT,
+    Kind,
+    Op2File,
+    State,
+)
 from fem.files.reading import ElementResult, PointResult, Solution, solutions
 from fem.model.structure import Structure
 
@@ -40,7 +49,12 @@ _ELEMENTS = {
     "element_stress": ("OES1X1", "OES1C", 5, 1, 0),
     "element_strain": ("OSTR1X", "OSTR1C", 5, 11, 14),
 }
-_ANALYSES = {"static": STATIC, "modes": MODAL, "transient": TRANSIENT}
+_ANALYSES = {
+    "static": STATIC,
+    "modes": MODAL,
+    "buckling": BUCKLING,
+    "transient": TRANSIENT,
+}
 
 
 @dataclass(frozen=True)

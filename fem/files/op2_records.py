@@ -15,7 +15,7 @@ _WORD = np.dtype("<i4")
 _REAL = np.dtype("<f4")
 DEVICE = 2  # plot
 
-STATIC, MODAL, TRANSIENT = 1, 2, 6
+STATIC, MODAL, TRANSIENT, BUCKLING = 1, 2, 6, 8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,10 +23,10 @@ class State:
     """The load case, mode or time to which results belong.
 
     Attributes:
-        analysis: STATIC, MODAL or TRANSIENT.
+        analysis: STATIC, MODAL, BUCKLING or TRANSIENT.
         subcase: id.
         number: mode, from 1; 0 otherwise.
-        value: eigenvalue, rad²/s², or time, s.
+        value: eigenvalue, rad²/s², load factor, or time, s.
         frequency: Hz, of a mode.
         title: of the subcase.
     """
@@ -122,7 +122,7 @@ def _header(kind: Kind, state: State) -> bytes:
     reals = words.view(_REAL)
     if state.analysis == TRANSIENT:
         reals[4] = state.value
-    elif state.analysis == MODAL:
+    elif state.analysis in (MODAL, BUCKLING):
         words[4] = state.number
         reals[5], reals[6] = state.value, state.frequency
     else:

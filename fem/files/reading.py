@@ -9,7 +9,7 @@ import numpy as np
 
 from fem.arrays import Float64, Int64
 
-Analysis = Literal["static", "modes", "transient"]
+Analysis = Literal["static", "modes", "buckling", "transient"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +52,8 @@ class Solution:
         group: the results.
         analysis: what was solved.
         subcase: its id; 0: the first of the deck.
-        values: (t,) times (s) or frequencies (Hz) of the states; (1,) zero of statics.
+        values: (t,) times (s), frequencies (Hz) or load factors of the states; (1,)
+            zero of statics.
     """
 
     source: h5py.File
@@ -99,6 +100,10 @@ class Solution:
         return np.asarray(chosen, dtype=float)
 
 
+# Solutions by subcase, and what their states are numbered by.
+_STATES: dict[Analysis, str] = {"static": "", "buckling": "factor", "transient": "time"}
+
+
 def _ids(group: h5py.Group | h5py.File, name: str) -> Int64 | None:
     found = group.get(name)
     if not isinstance(found, h5py.Dataset):
@@ -116,9 +121,9 @@ def solutions(source: h5py.File) -> Iterator[Solution]:
             case = int(name.removeprefix("modes").lstrip("_") or 0)
             hertz = np.asarray(group["frequency_hz"], dtype=float)
             yield Solution(source, group, "modes", case, hertz)
-        elif name in ("static", "transient"):
+        elif name in _STATES:
             for case, own in group.items():
-                times = np.zeros(1)
-                if name == "transient":
-                    times = np.asarray(own["time"], dtype=float)
-                yield Solution(source, own, name, int(case), times)
+                values = np.zeros(1)
+                if _STATES[name]:
+                    values = np.asarray(own[_STATES[name]], dtype=float)
+                yield Solution(source, own, name, int(case), values)

@@ -101,6 +101,16 @@ def assemble_mass(
     return mass.symmetric()
 
 
+def assemble_one(
+    points: Points, parts: Iterable[tuple[ElementBlock, Float64]]
+) -> sp.csr_matrix:
+    """(g, g) sum of element matrices (e, n, n) of blocks, each in its block's axes."""
+    total = _Sum(points.size)
+    for block, matrix in parts:
+        total.add(_triplets(points, block, matrix))
+    return total.symmetric()
+
+
 def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 | None:
     """The matrices of a block (e, n, n) as they are.
 

@@ -61,6 +61,11 @@ def check_requests(deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]) ->
     """
     problems = []
     for number, subcases in work:
+        if number == 105 and not any(subcase.method for subcase in subcases):
+            problems.append(
+                f"{deck.path}: SOL 105 needs a subcase with METHOD (which factors); "
+                "expected the number of an EIGRL or EIGB card"
+            )
         for subcase in subcases:
             for command, cards, why in _NEEDED.get(number, ()):
                 if not getattr(subcase, command.lower()):

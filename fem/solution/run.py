@@ -15,6 +15,7 @@ from fem.deck.source import read_source
 from fem.errors import InputError, by_kind
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
+from fem.solution.buckling import solve_buckling
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
 from fem.solution.requests import check_requests
@@ -26,11 +27,20 @@ _Solver = Callable[[Structure, list[Subcase], ResultFile, Options], None]
 _SOLVERS: dict[int, _Solver] = {
     101: solve_statics,
     103: solve_modes,
+    105: solve_buckling,
     109: solve_transients,
     112: solve_transients,
 }
 _TRANSIENT = frozenset({109, 112})
-_ANALYSES = {"STATICS": 101, "STATIC": 101, "MODES": 103, "DTRAN": 109, "MTRAN": 112}
+_ANALYSES = {
+    "STATICS": 101,
+    "STATIC": 101,
+    "MODES": 103,
+    "BUCK": 105,
+    "BUCKLING": 105,
+    "DTRAN": 109,
+    "MTRAN": 112,
+}
 
 
 def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
@@ -107,7 +117,8 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     """
     if not deck.sol:
         raise InputError(
-            f"{deck.path}: no SOL statement; expected SOL 101, 103, 109 or 112"
+            f"{deck.path}: no SOL statement; expected SOL "
+            f"{', '.join(map(str, _SOLVERS))}"
         )
     work: dict[int, list[Subcase]] = {}
     for subcase in deck.case_control:
@@ -135,6 +146,13 @@ def _refuse_what_is_not_carried_out(
         for number, cases in work
         for case in cases
         if case.combination and number != 101
+    ]
+    problems += [
+        f"{deck.path}: subcase {case.id}: STATSUB is not supported in SOL {number}: "
+        "there is no stiffness from a preload; --ignore CASE goes on without it"
+        for number, cases in work
+        for case in cases
+        if (case.statsub or case.preload) and number != 105
     ]
     if problems:
         raise InputError(dict.fromkeys(problems))

@@ -1,6 +1,6 @@
 """SOL 101: subcases with the same supports are solved as one block."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -23,42 +23,8 @@ from fem.solution.options import Options
 from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
 
 
-def solve_statics(
-    structure: Structure,
-    subcases: list[Subcase],
-    results: ResultFile,
-    options: Options,
-) -> None:
-    """Displacements, constraint forces and element results of static subcases.
-
-    Raises:
-        InputError: no load, or a structure that moves freely; its grids are named.
-    """
-    solved: dict[int, _Solution] = {}
-    for group in _with_same_support(c for c in subcases if not c.combination):
-        model = structure.with_subcase(group[0])
-        free = [free_motions(model.deck, model.points, model.blocks, c) for c in group]
-        load, eliminations = _loads(model, group, free)
-        u_g, residual = _solve(model, load, eliminations, options)
-        for i, subcase in enumerate(group):
-            loads = static_element_loads(model.deck, model.points, subcase.load)
-            vectors = u_g[:, i], residual[:, i], load[:, i]
-            found = _Solution(*vectors, loads, free[i])
-            solved[subcase.id] = found
-    for subcase in subcases:
-        # A combination has the supports of its own: they sort the forces only.
-        model = structure.with_subcase(subcase)
-        found = (
-            _combined(model, subcase, solved)
-            if subcase.combination
-            else solved[subcase.id]
-        )
-        _write(model, subcase, found, results)
-        options.console.say(_summary(model, subcase, found.u_g, found.residual))
-
-
 @dataclass(frozen=True)
-class _Solution:
+class StaticSolution:
     """What was found for a subcase, (g,) each, and loads between grids.
 
     Attributes:
@@ -76,9 +42,54 @@ class _Solution:
     free: FreeMotions | None
 
 
+def solve_statics(
+    structure: Structure,
+    subcases: list[Subcase],
+    results: ResultFile,
+    options: Options,
+) -> None:
+    """Displacements, constraint forces and element results of static subcases.
+
+    Raises:
+        InputError: no load, or a structure that moves freely; its grids are named.
+    """
+    solved = static_solutions(structure, subcases, options)
+    for subcase in subcases:
+        # A combination has the supports of its own: they sort the forces only.
+        model = structure.with_subcase(subcase)
+        found = (
+            _combined(model, subcase, solved)
+            if subcase.combination
+            else solved[subcase.id]
+        )
+        _write(model, subcase, found, results)
+        options.console.say(_summary(model, subcase, found.u_g, found.residual))
+
+
+def static_solutions(
+    structure: Structure, subcases: Sequence[Subcase], options: Options
+) -> dict[int, StaticSolution]:
+    """Answers of static subcases by their ids; combinations are left out.
+
+    Raises:
+        InputError: as `solve_statics`.
+    """
+    solved: dict[int, StaticSolution] = {}
+    for group in _with_same_support(c for c in subcases if not c.combination):
+        model = structure.with_subcase(group[0])
+        free = [free_motions(model.deck, model.points, model.blocks, c) for c in group]
+        load, eliminations = _loads(model, group, free, options)
+        u_g, residual = _solve(model, load, eliminations, options)
+        for i, subcase in enumerate(group):
+            loads = static_element_loads(model.deck, model.points, subcase.load)
+            vectors = u_g[:, i], residual[:, i], load[:, i]
+            solved[subcase.id] = StaticSolution(*vectors, loads, free[i])
+    return solved
+
+
 def _combined(
-    model: Structure, subcase: Subcase, solved: Mapping[int, _Solution]
-) -> _Solution:
+    model: Structure, subcase: Subcase, solved: Mapping[int, StaticSolution]
+) -> StaticSolution:
     """Sum of solutions with factors (SUBCOM, SYMCOM, REPCASE).
 
     Raises:
@@ -101,7 +112,7 @@ def _combined(
         for name in ("u_g", "residual", "load")
     )
     free = summed([(factor, part.free) for factor, part in parts])
-    return _Solution(*sums, below_each_other(loads) if loads else None, free)
+    return StaticSolution(*sums, below_each_other(loads) if loads else None, free)
 
 
 def _summary(
@@ -129,15 +140,29 @@ def _with_same_support(subcases: Iterable[Subcase]) -> Iterator[list[Subcase]]:
 
 
 def _loads(
-    model: Structure, group: list[Subcase], free: list[FreeMotions | None]
+    model: Structure,
+    group: list[Subcase],
+    free: list[FreeMotions | None],
+    options: Options,
 ) -> tuple[Float64, list[Elimination]]:
-    """(g, c) loads, and the constraints with the enforced motion of each subcase."""
+    """(g, c) loads, and the constraints with the enforced motion of each subcase.
+
+    SPCD of freedoms that nothing constrains moves nothing, as in MSC Nastran (pyNastran
+    models, buckling2_solid_shell_bar); that is said.
+    """
     loads, eliminations = [], []
     for subcase, motions in zip(group, free):
         dof, value = enforced_displacements(model.deck, model.points, subcase.load)
         elimination = model.elimination
-        if len(dof):
-            elimination = elimination.with_enforced(dof, value)
+        held = np.isin(dof, elimination.s)
+        if not held.all():
+            loose = [model.points.label(int(d)) for d in dof[~held][:5]]
+            options.console.say(
+                f"warning: subcase {subcase.id}: SPCD of {', '.join(loose)} moves "
+                "nothing: no SPC constrains that freedom"
+            )
+        if held.any():
+            elimination = elimination.with_enforced(dof[held], value[held])
         if not (subcase.load or motions or elimination.enforced.any()):
             raise InputError(
                 f"{model.deck.path}: subcase {subcase.id} selects no LOAD and enforces "
@@ -202,7 +227,7 @@ def _inertia_forces(model: Structure, acceleration_f: Float64) -> Float64:
 
 
 def _write(
-    model: Structure, subcase: Subcase, found: _Solution, results: ResultFile
+    model: Structure, subcase: Subcase, found: StaticSolution, results: ResultFile
 ) -> None:
     name, points, asked = f"static/{subcase.id}", model.points, subcase.outputs
     u_g, residual, load = found.u_g, found.residual, found.load

@@ -22,6 +22,12 @@ RECORDS = (
         table="EIGRL",
     ),
     Card(
+        name="EIGB",
+        group=_MODES,
+        fields="sid:i method:s=INV l1:f=nan l2:f=nan nep:i=0 ndp:i=0 ndn:i=0 - "
+        "norm:s=MAX g:i=0 c:i=0",
+    ),
+    Card(
         name="TABDMP1",
         group=_MODES,
         extract=from_pynastran.tabdmp1,

@@ -21,8 +21,9 @@ from fem.elements.lines.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.lines.beam_stiffness import SectionCompliance, beam_stiffness
 from fem.elements.lines.line_block import LineBlock
 from fem.elements.lines.line_geometry import congruence
+from fem.elements.lines.line_preload import over, shear_ratio
 from fem.elements.lines.orientation import place_lines
-from fem.elements.lines.pins import condense, pin_flags
+from fem.elements.lines.pins import pin_flags
 from fem.geometry.points import Points
 from fem.properties.materials import Isotropic, isotropic
 
@@ -78,8 +79,17 @@ class Bar(LineBlock):
         if not coupled:
             return congruence(self._map, lumped_mass(length, line))
         at_ends = coupled_mass(length, line)
-        condensed = condense(self.end_stiffness, self.released, at_ends)[1]
-        return congruence(self._map, condensed)
+        return congruence(self._condensed[1] @ self._map, at_ends)
+
+    def preload_section(self) -> tuple[Float64, Float64]:
+        """See `LineBlock`."""
+        s, length = self.section, self.geometry.length
+        plain = s.i12 == 0.0
+        bent = self.material.e[:, None] * np.stack([s.i1, s.i2], axis=1)
+        shear = (
+            np.stack([s.k1, s.k2], axis=1) * (self.material.g * s.a * plain)[:, None]
+        )
+        return shear_ratio(bent, shear, length), over(s.i1 + s.i2, s.a)
 
     @cached_property
     def _force_matrix(self) -> Float64:

@@ -34,8 +34,9 @@ from fem.elements.lines.beam_stations import (
 from fem.elements.lines.beam_stiffness import SectionCompliance, beam_stiffness
 from fem.elements.lines.line_block import LineBlock
 from fem.elements.lines.line_geometry import congruence
+from fem.elements.lines.line_preload import over, shear_ratio
 from fem.elements.lines.orientation import place_lines
-from fem.elements.lines.pins import condense, pin_flags
+from fem.elements.lines.pins import pin_flags
 from fem.geometry.points import Points
 from fem.properties.materials import Isotropic, isotropic
 
@@ -72,8 +73,19 @@ class Beam(LineBlock):
             form(length, line) for line in line_masses(self.section, self.material)
         )
         if coupled:
-            at_ends = condense(self.end_stiffness, self.released, at_ends)[1]
+            at_ends = congruence(self._condensed[1], at_ends)
         return congruence(self._map, at_ends)
+
+    def preload_section(self) -> tuple[Float64, Float64]:
+        """See `LineBlock`; means along tapered beams."""
+        s = self.section
+        mean = {name: np.sum(v * s.weight, axis=1) for name, v in s.values.items()}
+        bent = self.material.e[:, None] * np.stack([mean["i1"], mean["i2"]], axis=1)
+        shear = np.stack([s.k1, s.k2], axis=1) * (self.material.g * mean["a"])[:, None]
+        polar = (
+            over(mean["i1"] + mean["i2"], mean["a"]) + mean["y"] ** 2 + mean["z"] ** 2
+        )
+        return shear_ratio(bent, shear, self.geometry.length), polar
 
     @cached_property
     def _force_matrix(self) -> Float64:

@@ -11,8 +11,10 @@ from fem.arrays import Float64, Int64
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.lines.line_geometry import LineGeometry, congruence
+from fem.elements.lines.line_preload import line_differential
 from fem.elements.lines.pins import condense
 from fem.elements.lines.rod import stretched
+from fem.elements.preload import turning_arm
 from fem.properties.materials import Isotropic
 
 
@@ -92,16 +94,41 @@ class LineBlock(DenseBlock, ABC):
         """(e, 12, 12) stiffness at the ends in element axes, before pins release."""
         return self._stiffness_at_ends()
 
+    @abstractmethod
+    def preload_section(self) -> tuple[Float64, Float64]:
+        """(e, 2) shear ratios and (e,) polar radius squared, see `line_preload`."""
+
     @cached_property
     def _map(self) -> Float64:
         return self.geometry.grid_to_end()
 
     @cached_property
+    def _condensed(self) -> tuple[Float64, Float64]:
+        return condense(self.end_stiffness, self.released)
+
+    @property
     def _at_ends(self) -> Float64:
-        return condense(self.end_stiffness, self.released)[0]
+        return self._condensed[0]
 
     def stiffness(self) -> Float64:
         return congruence(self._map, self._at_ends)
+
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64:
+        """(e, 12, 12) of the section forces, and of the arms that offsets are."""
+        geometry = self.geometry
+        force = np.einsum("eij,ej->ei", self._at_ends @ self._map, motion)
+        if load is not None:
+            force -= np.einsum("eij,ej->ei", geometry.end_forces(), load)
+        ratio, polar = self.preload_section()
+        at_ends = line_differential(geometry.length, force, ratio, polar)
+        matrix = congruence(self._condensed[1] @ self._map, at_ends)
+        for k, arm in ((0, geometry.offset_a), (6, geometry.offset_b)):
+            tip = np.einsum("eij,ej->ei", geometry.R_BE, force[:, k : k + 3])
+            rows = slice(k + 3, k + 6)
+            matrix[:, rows, rows] += turning_arm(tip, arm)
+        return matrix
 
     def structural_damping(self) -> Float64 | None:
         return some(self.material.ge)

@@ -19,21 +19,19 @@ def pin_flags(texts: list[str]) -> Bool:
     return flags
 
 
-def condense(
-    stiffness: Float64, released: Bool, mass: Float64 | None = None
-) -> tuple[Float64, Float64 | None]:
-    """Stiffness and mass without the released freedoms; their rows become zero.
+def condense(stiffness: Float64, released: Bool) -> tuple[Float64, Float64]:
+    """Stiffness without the released freedoms, whose rows become zero.
 
     Args:
         stiffness: (e, n, n).
         released: (e, n).
-        mass: (e, n, n) condensed along where given.
 
     Returns:
-        New stiffness and mass of the same shapes.
+        The new stiffness, and (e, n, n) how all freedoms follow those that stay
+        (Guyan), which carries a coupled mass along: followᵀ m follow.
     """
-    k = stiffness.copy()
-    m = None if mass is None else mass.copy()
+    k, size = stiffness.copy(), stiffness.shape[1]
+    total = np.tile(np.eye(size), (len(stiffness), 1, 1))
     whole = np.einsum("eii->ei", stiffness)
     for i in np.flatnonzero(released.any(axis=0)):
         at = np.flatnonzero(released[:, i])
@@ -45,9 +43,8 @@ def condense(
         k[at] -= row[:, :, None] * ratio[:, None, :]
         k[at, i, :] = 0.0
         k[at, :, i] = 0.0
-        if m is not None:
-            follow = np.tile(np.eye(k.shape[1]), (len(at), 1, 1))
-            follow[:, i, :] = -ratio
-            follow[:, i, i] = 0.0
-            m[at] = follow.transpose(0, 2, 1) @ m[at] @ follow
-    return k, m
+        follow = np.tile(np.eye(size), (len(at), 1, 1))
+        follow[:, i, :] = -ratio
+        follow[:, i, i] = 0.0
+        total[at] = total[at] @ follow
+    return k, total

@@ -11,6 +11,7 @@ from fem.deck.records.lines import ROD
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
+from fem.elements.preload import tension_across
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.properties.materials import Isotropic, isotropic
@@ -65,6 +66,19 @@ class Rod(DenseBlock):
         axial = self.material.e * self.section.a / self.length
         torsional = self.material.g * self.section.j / self.length
         return line_springs(self.axis, axial, torsional)
+
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64:
+        """(e, 12, 12) of the axial force, across the axis."""
+        stretch = np.einsum("ei,ei->e", self.axis, motion[:, 6:9] - motion[:, :3])
+        force = self.material.e * self.section.a * stretch / self.length
+        matrix = np.zeros((len(force), 12, 12))
+        moves = np.array([0, 1, 2, 6, 7, 8])
+        matrix[:, moves[:, None], moves] = tension_across(
+            self.axis, force / self.length
+        )
+        return matrix
 
     def structural_damping(self) -> Float64 | None:
         return some(self.material.ge)

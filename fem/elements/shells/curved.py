@@ -42,6 +42,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.preload import of_gradients, symmetric_plane
 from fem.elements.shells.quadratic_surface import (
     QUAD8,
     TRIA6,
@@ -53,6 +54,7 @@ from fem.elements.shells.quadratic_surface import (
     turned,
 )
 from fem.elements.shells.shell import Shell, section_flexibility
+from fem.elements.shells.shell_preload import across, add_turning
 from fem.properties.shell_section import ShellSection
 from fem.properties.shells import sections
 
@@ -248,6 +250,41 @@ class CurvedShell(Shell):
             part = slice(start, start + _PIECE)
             matrix[part] = self.take(part).full_stiffness()
         return matrix
+
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64:
+        """(e, 6 n, 6 n) of the membrane forces, see `shell_preload`."""
+        size = self.dof.shape[1]
+        matrix = np.empty((len(self.id), size, size))
+        for start in range(0, len(self.id), _PIECE):
+            part = slice(start, start + _PIECE)
+            matrix[part] = self.take(part).full_differential(motion[part])
+        return matrix
+
+    def full_differential(self, motion: Float64) -> Float64:
+        """(e, 6 n, 6 n) of all elements at once."""
+        points = self.surface.points
+        at, slope = self.base(points), self.surface.slopes(points)
+        strain = np.einsum("eqsn,en->eqs", self.strain_operator(points), motion)
+        matrix = self.resultant_matrix(points)[:, :, :3]
+        membrane = symmetric_plane(np.einsum("eqas,eqs->eqa", matrix, strain))
+        weight = self.surface.weights * at.area
+        weighted = weight[..., None, None] * membrane
+        gradient = at.gradient @ slope
+        # Components along the axes of the displacement of the surface.
+        frame = np.concatenate([at.axes, at.normal[:, :, None]], axis=2)
+        total = np.zeros((len(self.id), self.dof.shape[1], self.dof.shape[1]))
+        e, q, _, n = gradient.shape
+        for k, own in enumerate(across(weighted)):
+            of_u = np.einsum("eqan,eqc->eqanc", gradient, frame[:, :, k])
+            of_u = of_u.reshape(e, q * 2, n, 3)
+            turned_by = self._to_grids(of_u, np.zeros_like(of_u))
+            total += of_gradients(turned_by.reshape(e, q, 2, -1), own)
+        if self.offset.any():
+            tip = np.einsum("eqab,eqbn,eqai->eni", weighted, gradient, at.axes)
+            add_turning(total, tip, self.offset[:, None, None] * self.directors)
+        return total
 
     def take(self, part: slice) -> "CurvedShell":
         """Some of the elements."""

@@ -19,6 +19,7 @@ from fem.deck.records.shells import PANEL_FORCE, PANEL_STRESS
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
+from fem.elements.preload import tension_across
 from fem.elements.shells.convex import bad_facets
 from fem.elements.shells.shell_geometry import facet
 from fem.errors import InputError
@@ -219,6 +220,35 @@ class ShearPanel(DenseBlock):
         if self.rods.any():
             matrix += self._extension()
         return matrix
+
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64:
+        """(e, 12, 12) of the forces along the diagonals and of the sides' rods.
+
+        The corner forces are those of two bars along the diagonals: the same work as
+        that of the shear flow on bilinear deflections of a rectangle.
+        """
+        shape = panel_shape(self.corners, self.material.nu)
+        flow = np.einsum("ei,ei->e", self._flow(shape), motion)
+        moved = motion.reshape(-1, 4, 3)
+        matrix = np.zeros((len(self.id), 4, 3, 4, 3))
+        lines = [((0, 2), None), ((1, 3), None)]
+        lines += [(side, self.rods[:, k]) for k, side in enumerate(_SIDES)]
+        for (i, j), area in lines:
+            between = self.corners[:, j] - self.corners[:, i]
+            length = np.linalg.norm(between, axis=1)
+            axis = between / length[:, None]
+            if area is None:
+                tension = flow * shape.corner[:, i]
+            else:
+                stretch = np.einsum("ei,ei->e", axis, moved[:, j] - moved[:, i])
+                tension = self.material.e * area * stretch / length
+            part = tension_across(axis, tension / length).reshape(-1, 2, 3, 2, 3)
+            for a, p in enumerate((i, j)):
+                for b, q in enumerate((i, j)):
+                    matrix[:, p, :, q] += part[:, a, :, b]
+        return matrix.reshape(-1, 12, 12)
 
     def _extension(self) -> Float64:
         """(e, 12, 12) of the rods along the sides."""

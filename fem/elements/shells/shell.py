@@ -19,6 +19,7 @@ from fem.elements.shells.shell_drilling import drilling
 from fem.elements.shells.shell_geometry import Facet, facet, matrix_to_grids, to_grids
 from fem.elements.shells.shell_hybrid import InPlane, in_plane
 from fem.elements.shells.shell_mass import shell_mass
+from fem.elements.shells.shell_preload import facet_differential
 from fem.elements.shells.shell_recovery import (
     FibreRecovery,
     PlyRecovery,
@@ -117,6 +118,18 @@ class Shell(DenseBlock):
             if self.k6rot and not self.drills:
                 local += drilling(shape, section.membrane[:, 2, 2], self.k6rot)
             matrix[part] = matrix_to_grids(local, shape)
+        return matrix
+
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64:
+        """(e, 6 n, 6 n) of the membrane forces."""
+        matrix = np.empty((len(self.id), self.dof.shape[1], self.dof.shape[1]))
+        for start in range(0, len(self.id), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            resultant = self._resultants(part, True)[:, :, :3]
+            membrane = np.einsum("epcn,en->epc", resultant, motion[part])
+            matrix[part] = facet_differential(self._shape(part), membrane)
         return matrix
 
     @property

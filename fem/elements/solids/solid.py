@@ -12,6 +12,7 @@ from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.shell_recovery import point_names
 from fem.elements.solids.element_axes import stress_rotation
 from fem.elements.solids.isoparametric import Derivatives, Rule, jacobians
+from fem.elements.solids.solid_preload import solid_differential
 from fem.elements.solids.solid_stiffness import SolidMatrices
 from fem.elements.stress_measures import solid_principal, solid_von_mises
 
@@ -112,6 +113,26 @@ class Solid(DenseBlock):
     def stiffness(self) -> Float64:
         """(e, 3 n, 3 n)."""
         return np.concatenate([self._matrices(p).stiffness for p in self._parts()])
+
+    def differential_stiffness(
+        self, motion: Float64, load: Float64 | None = None
+    ) -> Float64:
+        """(e, 3 n, 3 n) of the stresses."""
+        shape, found = self.shape, []
+        for part in self._parts():
+            stress = np.einsum(
+                "epsn,en->eps", self._matrices(part).stress, motion[part]
+            )
+            found.append(
+                solid_differential(
+                    self.nodes[part],
+                    stress,
+                    shape.corners,
+                    shape.mass_rule,
+                    shape.derivatives,
+                )
+            )
+        return np.concatenate(found)
 
     def expansion(self) -> Float64:
         """(e, 3 n), see `DenseBlock`."""

@@ -1,0 +1,244 @@
+"""Linear buckling (K + λ K_d) x = 0: factors λ of the load that gave K_d.
+
+K is positive definite, K_d is not: as -K_d x = μ K x with μ = 1 / λ the largest |μ| are
+the smallest |λ|, of both signs (a negative factor buckles under the reversed load).
+They come by block Lanczos in the inner product of K, or densely. K + a K_d has as many
+negative eigenvalues as there are factors between 0 and a: that count shows that none
+was missed (Sylvester's law of inertia).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.linalg
+import scipy.sparse as sp
+
+from fem.algebra.eigenproblem import DENSE_LIMIT, Progress, look_again
+from fem.algebra.lanczos import BlockLanczos, RitzPairs
+from fem.algebra.linear_solver import SingularMatrixError, SolverName, factorize
+from fem.algebra.sturm import count_below
+from fem.arrays import Float64
+
+_CONVERGED = 1e-8
+# Share of the largest 1 / |λ| below which an eigenvalue is rounding.
+_NONE = 1e-12
+_ATTEMPTS = 6
+
+
+@dataclass(frozen=True)
+class FactorCount:
+    """One count.
+
+    Attributes:
+        limit: of the factors, counted from zero.
+        counted: by inertia.
+        found: by the iteration.
+    """
+
+    limit: float
+    counted: int
+    found: int
+
+    @property
+    def complete(self) -> bool:
+        """Whether none was missed."""
+        return self.counted == self.found
+
+    def __str__(self) -> str:
+        verdict = "none missed" if self.complete else "some are MISSING"
+        return (
+            f"{self.counted} load factors counted between 0 and {self.limit:.6g}, "
+            f"{self.found} found: {verdict}"
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Buckling:
+    """Buckling factors, smallest magnitude first.
+
+    Attributes:
+        factor: (m,) λ.
+        shape: (n, m), X' K X = 1; the largest entry of each is positive.
+        counts: how completeness was shown, for each sign.
+    """
+
+    factor: Float64
+    shape: Float64
+    counts: tuple[FactorCount, ...]
+
+
+def buckling_factors(
+    stiffness: sp.csr_matrix,
+    differential: sp.csr_matrix,
+    *,
+    count: int | None = None,
+    band: tuple[float | None, float | None] = (None, None),
+    solver: SolverName | None = None,
+    progress: Progress | None = None,
+) -> Buckling:
+    """Load factors λ with (K + λ K_d) x = 0.
+
+    Args:
+        stiffness: (n, n) K, positive definite.
+        differential: (n, n) K_d of the load.
+        count: at most this many, the smallest in magnitude.
+        band: (lowest, highest) λ; None stands for no limit. A count, or both limits,
+            or one limit with the sign of the wanted factors is needed.
+        solver: as in `factorize`.
+        progress: called with (converged, wanted).
+
+    Raises:
+        SingularMatrixError: K is not positive definite.
+        ValueError: neither count nor limits.
+    """
+    low = -np.inf if band[0] is None else band[0]
+    high = np.inf if band[1] is None else band[1]
+    if count is None and not np.isfinite(_reach(low, high)):
+        raise ValueError("give a count of factors or limits")
+    if not len(stiffness.indptr) - 1:
+        return Buckling(factor=np.zeros(0), shape=np.zeros((0, 0)), counts=())
+    problem = _Problem(stiffness, differential, low, high, count, solver)
+    factors, shapes, known = (
+        problem.dense() if problem.n <= DENSE_LIMIT else problem.iterate(progress)
+    )
+    chosen = problem.chosen(factors)
+    if shapes.size:
+        largest = np.argmax(np.abs(shapes), axis=0)
+        shapes = shapes * np.sign(shapes[largest, np.arange(shapes.shape[1])])
+    return Buckling(
+        factor=factors[chosen],
+        shape=np.asfortranarray(shapes[:, chosen]),
+        counts=tuple(problem.counts(factors, chosen, known)),
+    )
+
+
+def _reach(low: float, high: float) -> float:
+    """How far from zero factors of a band lie at most."""
+    return max(abs(low), abs(high))
+
+
+@dataclass(frozen=True)
+class _Problem:
+    stiffness: sp.csr_matrix
+    differential: sp.csr_matrix
+    low: float
+    high: float
+    count: int | None
+    solver: SolverName | None
+
+    @property
+    def n(self) -> int:
+        return len(self.stiffness.indptr) - 1
+
+    def chosen(self, factors: Float64) -> npt.NDArray[np.intp]:
+        """Positions of the wanted among factors that ascend in magnitude."""
+        inside = (factors >= self.low) & (factors <= self.high)
+        return np.flatnonzero(inside)[: self.count]
+
+    def dense(self) -> tuple[Float64, Float64, float]:
+        """All factors."""
+        k, kd = self.stiffness.toarray(), self.differential.toarray()
+        try:
+            theta, shapes = scipy.linalg.eigh(-0.5 * (kd + kd.T), 0.5 * (k + k.T))
+        except np.linalg.LinAlgError:
+            raise SingularMatrixError(self._failing_row()) from None
+        order = np.argsort(-np.abs(theta), kind="stable")
+        theta = theta[order]
+        there = np.abs(theta) > _NONE * np.abs(theta).max(initial=0.0)
+        return 1.0 / theta[there], shapes[:, order][:, there], np.inf
+
+    def _failing_row(self) -> int | None:
+        try:
+            factorize(self.stiffness, solver=self.solver).close()
+        except SingularMatrixError as error:
+            return error.row
+        return None
+
+    def iterate(self, progress: Progress | None) -> tuple[Float64, Float64, float]:
+        """Factors and shapes up to the last wanted one, and how far all are known."""
+        tell = progress or (lambda done, wanted: None)
+        with factorize(self.stiffness, solver=self.solver) as factor:
+
+            def operator(block: Float64) -> Float64:
+                return factor.solve(np.asfortranarray(-(self.differential @ block)))
+
+            wanted = self.count or 8
+            lanczos = BlockLanczos(
+                operator,
+                self.stiffness,
+                block=int(np.clip(wanted // 4, 4, 8)),
+                reserve=4 * wanted + 64,
+            )
+            for attempt in range(_ATTEMPTS):
+                pairs, leading, known = self._grow(lanczos, tell)
+                factors = 1.0 / pairs.theta[:leading]
+                missing = sum(
+                    c.counted - c.found
+                    for c in self.counts(factors, self.chosen(factors), known)
+                )
+                if missing <= 0 or lanczos.exhausted or attempt == _ATTEMPTS - 1:
+                    break
+                look_again(lanczos, pairs, missing)
+            return factors, lanczos.vectors(pairs, np.arange(leading)), known
+
+    def _grow(
+        self, lanczos: BlockLanczos, tell: Callable[[int, int], None]
+    ) -> tuple[RitzPairs, int, float]:
+        """Extend the basis until the wanted factors have converged.
+
+        Returns the pairs, how many of the first have converged, and the magnitude of
+        the first that has not.
+        """
+        look = lanczos.size + 2 * (self.count or 16) + 16
+        while True:
+            while lanczos.size < look and not lanczos.exhausted:
+                lanczos.extend()
+            pairs = lanczos.ritz()
+            there = np.abs(pairs.theta) > _NONE * np.abs(pairs.theta).max(initial=0.0)
+            bad = np.flatnonzero(there & (pairs.residual > _CONVERGED))
+            leading = int(bad[0]) if len(bad) else int(there.sum())
+            known = 1.0 / abs(pairs.theta[leading]) if len(bad) else np.inf
+            found = len(self.chosen(1.0 / pairs.theta[:leading]))
+            tell(found, self.count or found + 1)
+            enough = self.count is not None and found >= self.count
+            # Ritz values approach from inside: what has not converged lies nearer.
+            over = 0.9 * known > _reach(self.low, self.high)
+            if enough or over or lanczos.exhausted:
+                return pairs, leading, known
+            look = lanczos.size + max(16, lanczos.size // 8)
+
+    def counts(
+        self, factors: Float64, chosen: npt.NDArray[np.intp], known: float
+    ) -> list[FactorCount]:
+        """Counts beyond the last chosen factors, on each side that is wanted."""
+        last = -1.0 if not len(chosen) else abs(float(factors[chosen[-1]]))
+        found = []
+        for sign, limit in ((1.0, self.high), (-1.0, -self.low)):
+            if limit <= 0.0:
+                continue
+            own = sign * factors[sign * factors > 0.0]
+            if self.count is not None and len(chosen) == self.count:
+                limit = _gap(own, last, known)
+            elif np.isfinite(limit):
+                limit = _gap(own, min(limit, known), known)
+            elif len(own):
+                limit = 1.001 * float(own.max())
+            else:
+                continue
+            counted = count_below(
+                self.stiffness,
+                sp.csr_matrix(-sign * self.differential),
+                limit,
+                solver=self.solver,
+            )
+            found.append(FactorCount(sign * limit, counted, int(np.sum(own < limit))))
+        return found
+
+
+def _gap(own: Float64, last: float, known: float) -> float:
+    """A limit beyond `last` in a gap of magnitudes, below what is not known."""
+    beyond = np.sort(own[own > last * (1.0 + 1e-6)])
+    following = min([*beyond[:1], known])
+    return 0.5 * (last + following) if np.isfinite(following) else 1.001 * last
