@@ -3,6 +3,7 @@
     from drake_landing import load_case, run_case
 
     result = run_case(load_case("case.yaml"), "out/case")
+    campaign = run_campaign(load_campaign("campaign.yaml"), "out/campaign")
 
 For diagrams by hand: `MakeLandingDiagram`, `AddLandingGear`, `AddGearSystems`, and the
 systems of the package `systems`; finite elements alone: the package `fem`.

@@ -1,3 +1,8 @@
+from .campaign.cases import load_campaign as load_campaign
+from .campaign.engine import Pool as Pool
+from .campaign.run import CampaignResult as CampaignResult
+from .campaign.run import run_campaign as run_campaign
+from .campaign.schema import Campaign as Campaign
 from .case.reading import load_case as load_case
 from .case.reading import parse_case as parse_case
 from .case.schema import Case as Case

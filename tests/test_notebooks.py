@@ -47,6 +47,12 @@ for practice in ("modal damping 2% of critical", "transient at 5 ms"):
     assert gaps.loc[practice, 210] > 0.7 * gaps.loc[practice, 73]
 assert gaps.loc["as in this study", 210] < 0.3 * gaps.loc["as in this study", 73]
 """,
+    "07_campaign": """
+assert campaign.failed == [] and len(cases) == len(campaign.design)
+assert peak[sink > sink.median()].min() > peak[sink < sink.median()].max()
+assert set(critical["case"]) <= set(cases["case"])
+assert critical["share"].iloc[-1] >= 0.99
+""",
 }
 IN_FULL = {
     "01_first_landing": """
@@ -101,6 +107,10 @@ assert gaps.loc["as in this study", 210] < 0.02
 assert ((ratio > 0.5) & (ratio < 2)).mean() >= 0.9
 assert chosen.max() > 60
 assert feedback.loc["count 73"].max() > 0.05
+""",
+    "07_campaign": """
+assert len(cases) == 40
+assert errors["peak"].abs().max() < 0.1
 """,
 }
 

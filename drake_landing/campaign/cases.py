@@ -29,12 +29,13 @@ from fem.errors import InputError, nearest
 Data = dict[str, Any]
 
 
-def load_campaign(path: Path) -> Campaign:
+def load_campaign(path: Path | str) -> Campaign:
     """Reads and validates a campaign file.
 
     Raises:
         InputError: every problem with its line.
     """
+    path = Path(path)
     text = read_text(path)
     campaign, places = parse_model(Campaign, text, file=str(path), folder=path.parent)
     return campaign.written_at(places)

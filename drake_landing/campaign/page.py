@@ -40,14 +40,14 @@ _ERRORS = {
 }
 
 
-def write_page(result: CampaignResult, tables: Tables, path: Path) -> None:
+def write_page(result: CampaignResult, path: Path) -> None:
     """Writes the page.
 
     Args:
-        result: of the campaign.
-        tables: of `write_tables`.
+        result: of the campaign, with its tables.
         path: of the file.
     """
+    tables = result.tables
     environment = Environment(autoescape=True, undefined=StrictUndefined)
     template = environment.from_string(
         _text("drake_landing.campaign", "campaign.html.j2")

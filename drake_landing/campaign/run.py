@@ -7,8 +7,8 @@
 Everything that was computed is found again by a later run in the same folder.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -55,6 +55,7 @@ class CampaignResult:
         unconfirmed: landings whose direct transient failed, and why.
         prepared: airframes by key.
         of_case: case -> key of its airframe.
+        tables: by name, see `docs/campaigns.md`; SI units.
     """
 
     campaign: Campaign
@@ -68,6 +69,7 @@ class CampaignResult:
     unconfirmed: dict[int, str] = field(repr=False)
     prepared: dict[str, Prepared] = field(repr=False)
     of_case: dict[int, str] = field(repr=False)
+    tables: Mapping[str, pd.DataFrame] = field(default_factory=dict, repr=False)
 
     @property
     def cases(self) -> Path:
@@ -115,23 +117,24 @@ def expand(campaign: Campaign) -> tuple[pd.DataFrame, list[Case]]:
 
 def run_campaign(
     campaign: Campaign,
-    out: Path,
+    out: Path | str,
     pool: Pool | None = None,
     progress: Reporter | None = None,
 ) -> CampaignResult:
     """Runs a campaign, or goes on with one, and writes all its files.
 
     Args:
-        campaign: validated.
+        campaign: validated, of `load_campaign`.
         out: folder.
-        pool: where tasks run; default: all cores of this machine.
+        pool: where tasks run; default: all cores of this machine, in processes that
+            import the main module again (`if __name__ == "__main__":`).
         progress: told the stages.
 
     Raises:
         InputError: the campaign, a case, deck or gears are at fault. Landings that fail
             raise nothing: they are listed.
     """
-    tell = progress or Silent()
+    tell, out = progress or Silent(), Path(out)
     tell.stage("expanding the campaign")
     rows, cases = expand(campaign)
     prepared, of_case = _prepare(campaign, cases, out, tell)
@@ -166,9 +169,9 @@ def run_campaign(
     from drake_landing.campaign.tables import write_tables
 
     tell.stage("tables")
-    tables = write_tables(result)
+    result = replace(result, tables=write_tables(result))
     tell.stage("page")
-    write_page(result, tables, out / "campaign.html")
+    write_page(result, out / "campaign.html")
     return result
 
 

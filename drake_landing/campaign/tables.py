@@ -38,7 +38,7 @@ from drake_landing.parts.tables import with_margin
 from fem.arrays import Float64
 from fem.files.aside import write_aside
 
-Tables = dict[str, pd.DataFrame]
+Tables = Mapping[str, pd.DataFrame]
 
 COVER_TOLERANCE = 0.02
 COVER_SHARE = 0.99
@@ -63,7 +63,7 @@ def write_tables(result: CampaignResult) -> Tables:
         Name -> table.
     """
     worst = _largest(result)
-    tables: Tables = {"cases": _cases(result)}
+    tables = {"cases": _cases(result)}
     tables["stress"] = _stress(result, worst)
     tables["components"] = _components(tables["stress"])
     tables["screening_error"] = result.errors.reset_index()

@@ -4,6 +4,7 @@ import errno
 import shutil
 import threading
 import time as clock
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -12,10 +13,12 @@ import pandas as pd
 import psutil
 import pytest
 
+import drake_landing
 from drake_landing.campaign.cases import load_campaign
 from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
 from drake_landing.campaign.engine import Pool
+from drake_landing.campaign.page import write_page
 from drake_landing.campaign.run import (
     CampaignResult,
     expand,
@@ -24,6 +27,7 @@ from drake_landing.campaign.run import (
 )
 from drake_landing.campaign.task import case_file
 from drake_landing.cli import app
+from drake_landing.report.pdf import browser
 from fem import read_deck, run_deck
 from fem.errors import InputError
 from fem.files.hdf5_aside import written_hdf5
@@ -262,3 +266,72 @@ def test_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     path = _write(tmp_path)
     app(["check", str(path)], standalone_mode=False)
     assert "4 landings" in capsys.readouterr().out
+
+
+@pytest.fixture(scope="module")
+def browser_page(result: CampaignResult, tmp_path_factory: pytest.TempPathFactory):
+    """The page of a thousand landings, in a real browser."""
+    playwright = pytest.importorskip("playwright.sync_api")
+    try:
+        program = browser()
+    except InputError as error:
+        pytest.skip(str(error))
+    cases = pd.concat([result.tables["cases"]] * 250, ignore_index=True)
+    cases["case"] = np.arange(len(cases))
+    critical = pd.concat([result.tables["critical_cases"]] * 20, ignore_index=True)
+    critical["case"] = np.arange(len(critical)) * 7
+    many = {**result.tables, "cases": cases, "critical_cases": critical}
+    path = tmp_path_factory.mktemp("page") / "campaign.html"
+    write_page(replace(result, tables=many), path)
+    with playwright.sync_playwright() as program_of:
+        chromium = program_of.chromium.launch(
+            executable_path=program, args=["--no-sandbox", "--disable-gpu"]
+        )
+        page = chromium.new_page()
+        page.errors = []
+        page.on("pageerror", lambda error: page.errors.append(error))
+        page.on("request", lambda r: r.url.startswith("file:") or page.errors.append(r))
+        page.goto(path.as_uri())
+        page.wait_for_selector("body[data-ready=yes]")
+        yield page
+        chromium.close()
+
+
+def test_page_shows_a_thousand_cases_without_network(browser_page) -> None:
+    assert browser_page.errors == []
+    assert browser_page.locator("#matrix circle").count() == 1000
+
+
+def test_page_sorts_and_filters_critical_cases(browser_page) -> None:
+    rows = browser_page.locator("#criticals tbody tr")
+    every = rows.count()
+    head = browser_page.locator("#criticals th").first
+    head.click()
+    first = int(rows.first.locator("td").first.inner_text())
+    head.click()
+    assert first > int(rows.first.locator("td").first.inner_text()) == 0
+    browser_page.fill("#filter", "no such thing")
+    assert rows.count() == 0
+    browser_page.fill("#filter", "")
+    assert rows.count() == every
+
+
+def test_a_click_on_the_page_leads_to_the_case(browser_page) -> None:
+    row = browser_page.locator("#criticals tbody tr").first
+    case = row.locator("td").first.inner_text()
+    row.click()
+    shown = browser_page.locator("#case")
+    assert shown.locator("h2").inner_text() == f"Case {case}"
+    assert f"--report {case}" in shown.inner_text()
+    assert "scenario.sink_rate" in shown.inner_text()
+    browser_page.locator("#hull circle").first.click()
+    assert shown.locator("h2").inner_text().startswith("Case ")
+    assert browser_page.errors == []
+
+
+def test_names_of_the_package_run_a_campaign(result: CampaignResult) -> None:
+    assert drake_landing.run_campaign is run_campaign
+    assert drake_landing.load_campaign is load_campaign
+    assert set(result.tables) >= {"cases", "stress", "components", "section_hulls"}
+    stored = pd.read_parquet(result.folder / "tables" / "stress.parquet")
+    pd.testing.assert_frame_equal(stored, result.tables["stress"], check_dtype=False)
