@@ -9,9 +9,17 @@ import os
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from drake_landing.airframe.load_shapes import load_model
+from drake_landing.airframe.selection import expected_pulses
+from drake_landing.cache import Cache
+from drake_landing.case.reading import parse_case
+from drake_landing.case.schema import Case
+from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.transient.step_error import STEPS, step_error
 from fem.arrays import Float64, Int64
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
@@ -60,7 +68,28 @@ def new_case(deck: Path, case: Path) -> str:
     units = guess_units(raw)
     structure = Structure.from_deck(in_si(raw, units_of(units)))
     layout = _layout(structure)
-    return "\n".join(_lines(deck, case, units, layout)) + "\n"
+    text = "\n".join(_lines(deck, case, units, layout)) + "\n"
+    return text + _transient(
+        parse_case(text, file=str(case), folder=case.resolve().parent)
+    )
+
+
+def _transient(case: Case) -> str:
+    """The step of the transient by what it is expected to cost; without modes."""
+    try:
+        with TemporaryDirectory() as folder:
+            aircraft = prepare_aircraft(case, Path(folder))
+            structure = aircraft.structure()
+            shapes = load_model(structure, aircraft, Cache.of_user())
+        pulses = expected_pulses(structure, case.airframe, aircraft, aircraft.scenario)
+        points = list(aircraft.monitoring)
+        found = step_error(shapes, pulses, points, case.transient.step)
+    except InputError:  # check says what is wrong with deck or gears
+        return ""
+    step, why = found.enough, "keeps peak accelerations within 2 %"
+    if step is None:
+        step, why = STEPS[-1], f"{found}"
+    return f"transient:\n  step: {step:.1e} # s; {why}, as expected for these gears\n"
 
 
 def guess_units(deck: Deck) -> str:
@@ -121,7 +150,7 @@ def _lines(deck: Path, case: Path, units: str, a: _Layout) -> Iterator[str]:
     yield f"# centre of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m. All is SI,"
     yield "# in the frame of the deck. Replace or confirm what is marked GUESS."
     yield "# Next: drake-landing check on this file says what fits and what does not;"
-    yield "# docs/gears.md describes gears, docs/presets.md the conditions of CS-25."
+    yield "# docs/gears.md describes gears, docs/conditions.md the conditions of CS-25."
     yield f"name: {name or 'landing'}"
     yield "airframe:"
     yield f"  deck: {shown!r}"
@@ -132,7 +161,7 @@ def _lines(deck: Path, case: Path, units: str, a: _Layout) -> Iterator[str]:
     for point, row in _points(a).items():
         yield f"    {point}: {a.ids[row]} # {_at(a, row)}"
     yield "scenario:"
-    yield "  sink_rate: 3.05 # m/s; or preset: level, tail_down, ... (docs/presets.md)"
+    yield "  sink_rate: 3.05 # m/s; or a preset (docs/conditions.md)"
     yield "  forward_speed: 70 # m/s, GUESS"
     yield "gears: # GUESS throughout: of the size for this mass, not of this aircraft"
     yield from _gears(a)

@@ -30,7 +30,7 @@ Float64 = npt.NDArray[np.float64]
 
 WARNED, REFUSED = 0.02, 0.10  # of the peak
 _SMALL = 0.05  # of the largest peak: smaller components do not count
-_STEPS = (5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5)  # s, that may be proposed
+STEPS = (5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5)  # s, that may be proposed
 
 
 class StepRefused(InputError):
@@ -78,7 +78,7 @@ class StepError:
         if self.error <= WARNED:
             return text
         if self.enough is None:
-            return f"{text}; no step of {_STEPS[-1]:g} s or more brings that below 2 %"
+            return f"{text}; no step of {STEPS[-1]:g} s or more brings that below 2 %"
         return f"{text}; {self.enough:g} s would bring that below 2 %"
 
     @property
@@ -107,13 +107,13 @@ def step_error(
         step: s.
         scheme: a key of `SCHEMES`.
     """
-    exact = _exact(model, pulses, min([pulses[0].step, *_STEPS]))
+    exact = _exact(model, pulses, min([pulses[0].step, *STEPS]))
 
     def error(h: float) -> tuple[float, str]:
         return _worst(exact, _by_scheme(model, pulses, h, scheme), points)
 
     found, where = error(step)
-    smaller = (h for h in _STEPS if h < step and error(h)[0] <= WARNED)
+    smaller = (h for h in STEPS if h < step and error(h)[0] <= WARNED)
     enough = step if found <= WARNED else next(smaller, None)
     return StepError(step=step, error=found, where=where, enough=enough)
 

@@ -31,6 +31,7 @@ def test_a_foreign_deck_is_understood(tmp_path: Path) -> None:
     # Where its own case hangs the main gears.
     assert [g.attachment_node for g in case.gears[1:]] == [270, 370]
     assert case.airframe.monitoring["tip_starboard"] == 209
+    assert case.transient.step == 2e-4  # 0.5 ms would cost more than 2 %
 
 
 @pytest.mark.parametrize("forward", FRAMES)
