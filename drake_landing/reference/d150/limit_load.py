@@ -7,13 +7,13 @@ gears, which are no part of its deck, pull at their attachments. At ultimate loa
 times the limit, no sheet or bar may pass its material's strength.
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from drake_landing.parts.stress import stresses
 from drake_landing.reference.d150.facts import facts, table
 from drake_landing.reference.d150.gears import landing_gears
 from drake_landing.reference.d150.geometry import MIRROR
@@ -23,10 +23,7 @@ from drake_landing.reference.d150.reference_axis import (
     reference_nodes,
 )
 from fem.algebra.statics import inertia_relief
-from fem.elements.block import Detail
-from fem.elements.stress_measures import plane_von_mises
 from fem.model.structure import Structure
-from fem.recovery.elements import element_tables
 
 Float64 = npt.NDArray[np.float64]
 
@@ -156,67 +153,24 @@ def _moment(structure: Structure, load: Float64, y: float) -> float:
 
 
 def _stresses(structure: Structure, u: Float64) -> pd.DataFrame:
-    material = _materials(structure)
+    """Equivalent stress of elements whose material has a strength, and its margin."""
     data = {m["id"]: m for m in facts("materials").values()}
-    parts = [_sheets(structure, u, material, data), _bars(structure, u, material)]
-    stress = pd.concat(parts, ignore_index=True)
-    if stress.empty:
-        return stress
+    parts = stresses(structure).parts
+    found = pd.DataFrame(
+        {
+            "id": np.concatenate([part.id for part in parts]),
+            "stress": np.concatenate([part.of(u[:, None])[0, :, 0] for part in parts]),
+        }
+    )
+    stress = _materials(structure).merge(found, on="id")
     stress["allowed"] = [data[m]["tension"] for m in stress.material]
     with np.errstate(divide="ignore"):
         stress["margin"] = stress.allowed / (ULTIMATE * stress.stress) - 1.0
     return stress
 
 
-def _sheets(
-    structure: Structure,
-    u: Float64,
-    material: pd.DataFrame,
-    data: Mapping[int, Mapping[str, float]],
-) -> pd.DataFrame:
-    """Von Mises stress of the sheet itself, from strains at both fibres.
-
-    A skin with smeared stringers has a stiffer membrane than its sheet, so its stress
-    resultants over the thickness would not be stresses.
-    """
-    parts = []
-    kind = Detail(fibre=True)
-    for found in element_tables(
-        structure.points, structure.blocks, "strain", detail=kind
-    ):
-        if found.table not in ("CQUAD4", "CTRIA3"):
-            continue
-        values = dict(zip(found.columns, found.of(u).T))
-        part = pd.DataFrame({"table": found.table, "id": found.id})
-        part = part.assign(row=np.arange(len(part))).merge(material, on="id")
-        e = np.array([data[m]["e"] for m in part.material])
-        nu = np.array([data[m]["nu"] for m in part.material])
-        largest = np.zeros(len(part))
-        for fibre in "12":
-            xx, yy, xy = (
-                values[f"{n}_{fibre}"][part.row] for n in ("exx", "eyy", "exy")
-            )
-            plane, shear = e / (1 - nu**2), e / 2 / (1 + nu)
-            sx, sy = plane * (xx + nu * yy), plane * (yy + nu * xx)
-            largest = np.maximum(largest, plane_von_mises(sx, sy, shear * xy))
-        parts.append(part.assign(stress=largest).drop(columns="row"))
-    return pd.concat(parts) if parts else pd.DataFrame()
-
-
-def _bars(structure: Structure, u: Float64, material: pd.DataFrame) -> pd.DataFrame:
-    """Largest direct stress of bars at their stress points, or axial without any."""
-    for found in element_tables(structure.points, structure.blocks, "stress"):
-        if found.table == "CBAR":
-            names = enumerate(found.columns)
-            columns = [k for k, name in names if name.startswith(("smax", "smin"))]
-            values = np.abs(found.of(u)[:, columns]).max(axis=1)
-            table = pd.DataFrame({"table": "CBAR", "id": found.id, "stress": values})
-            return table.merge(material, on="id")
-    return pd.DataFrame()
-
-
 def _materials(structure: Structure) -> pd.DataFrame:
-    """id, pid, material of shells and bars of an isotropic material with a strength.
+    """Table, id, pid, material: shells and bars of isotropic materials with a strength.
 
     Skins with smeared stringers have that of their bending; beams whose mass lies in
     mass items, and laminates, are left out.
@@ -229,7 +183,10 @@ def _materials(structure: Structure) -> pd.DataFrame:
         ]
     )
     elements = pd.concat(
-        [cards[card][["eid", "pid"]] for card in ("CQUAD4", "CTRIA3", "CBAR")]
+        [
+            cards[card][["eid", "pid"]].assign(table=card)
+            for card in ("CQUAD4", "CTRIA3", "CBAR")
+        ]
     )
     known = owner[owner.material.isin([m["id"] for m in facts("materials").values()])]
     return elements.merge(known, on="pid").rename(columns={"eid": "id"})
