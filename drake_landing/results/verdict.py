@@ -161,4 +161,5 @@ def _to_look_at(result: "ProcessResult") -> Iterator[str]:
     if bars:
         yield f"{bars} bars without stress recovery points: their section loads count"
     if result.notices:
-        yield f"{len(result.notices)} notices at the end"
+        count = len(result.notices)
+        yield f"{count} notice{'s' * (count > 1)} at the end"
