@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.parts.cuts import NAMED, envelope_table
+from drake_landing.parts.monitors import monitor_envelopes, monitor_histories
 from drake_landing.parts.watch import PartsFound
 
 WORST = ["component", "rank", "id", "card", "material", "equivalent", "time",
@@ -86,6 +87,16 @@ def section_envelopes(found: PartsFound) -> pd.DataFrame:
         for name, cuts in found.cuts.items()
     ]
     return pd.concat(tables, ignore_index=True) if tables else pd.DataFrame()
+
+
+def monitor_extremes(found: PartsFound) -> pd.DataFrame:
+    """Extremes of the deck's monitor points, see `monitor_envelopes`."""
+    return monitor_envelopes(found.stations, found.time, found.landing.monitors)
+
+
+def monitors_over_time(found: PartsFound) -> pd.DataFrame:
+    """Their loads over time."""
+    return monitor_histories(found.stations, found.time, found.landing.monitors)
 
 
 def root_histories(found: PartsFound) -> pd.DataFrame:

@@ -16,6 +16,7 @@ from drake_landing.parts.cuts import (
     mean_of_three,
 )
 from drake_landing.parts.inventory import Inventory
+from drake_landing.parts.monitors import Station, stations
 from drake_landing.parts.places import Places
 from drake_landing.parts.stress import Stresses, stresses
 from drake_landing.parts.stress_watch import Snapshot, StressWatch
@@ -32,6 +33,7 @@ class CaseFound:
 
     Attributes:
         sections: beam -> (t, n, 6) section loads, columns `COMPONENTS`, B.
+        monitors: monitor point of the deck -> (t, q) its loads, see `Station`.
         acceleration: grid -> (t, 3), B, m/s².
         stress: one row per element: `id`, `component`, `material`, `x`, `y`, `z`,
             `allowed`, `equivalent` and its `time`, `largest`, `smallest` (Pa, s);
@@ -39,6 +41,7 @@ class CaseFound:
     """
 
     sections: Mapping[str, Float64]
+    monitors: Mapping[str, Float64] = field(default_factory=dict)
     acceleration: Mapping[int, Float64]
     stress: pd.DataFrame
 
@@ -50,6 +53,7 @@ class PartsFound:
     Attributes:
         time: (t,) s.
         cuts: beam -> its cuts.
+        stations: monitor points of the deck.
         places: panels and equipment.
         cases: load cases, the landing itself first.
         total: stress table of the landing upon steady flight, None: not known.
@@ -60,6 +64,7 @@ class PartsFound:
 
     time: Float64
     cuts: Mapping[str, BeamCuts]
+    stations: tuple[Station, ...] = ()
     places: Places
     cases: tuple[CaseFound, ...]
     total: pd.DataFrame | None = field(default=None, repr=False)
@@ -130,8 +135,12 @@ class PartsWatch:
         self.cuts = {b.name: cutter.cuts(b, nodes) for b in places.beams}
         self._whole = cutter.cuts(_everything(structure), nodes)
         self.grids = np.unique([*grids, *places.grids]).astype(np.int64)
+        self.stations, self.notices = stations(structure, nodes)
+        self._inertial = [s for s in self.stations if s.of_acceleration is not None]
+        self._elastic = [s for s in self.stations if s.of_displacement is not None]
         self._operators = [
             *(cuts.of_acceleration for cuts in self.cuts.values()),
+            *(s.of_acceleration for s in self._inertial),
             self._whole.of_acceleration,
             structure.operator(self.grids, (1, 2, 3), frame="basic"),
         ]
@@ -139,6 +148,10 @@ class PartsWatch:
         self._motion = Observation("acceleration", operator)
         self._drag = structure.damping.mass_factor
         self._velocity = Observation("velocity", operator) if self._drag else None
+        self._strained = None
+        if self._elastic:
+            maps = sp.vstack([s.of_displacement for s in self._elastic])
+            self._strained = Observation("displacement", sp.csr_matrix(maps))
 
     @property
     def rows(self) -> pd.DataFrame:
@@ -149,15 +162,14 @@ class PartsWatch:
     @property
     def observers(self) -> list[Observer]:
         """To be given to the transient."""
-        moved: list[Observer] = [self._motion]
-        return [self._stress, *moved, *([self._velocity] if self._velocity else [])]
+        return [self._stress, *self._moved().values()]
 
     @property
     def content(self) -> list[object]:
         """Everything that what it finds depends on, beside loads and matrices."""
         s = self._stress
         maps = [self.stresses.expand, *(p.operator for p in self.stresses.parts)]
-        operators = [o.operator for o in (self._motion, self._velocity) if o]
+        operators = [seen.operator for seen in self._moved().values()]
         return [maps, operators, *s.content]
 
     def arrays(self) -> dict[str, npt.NDArray]:
@@ -177,8 +189,12 @@ class PartsWatch:
             seen.time, seen.values = arrays[f"{name}_time"], arrays[name]
 
     def _moved(self) -> dict[str, Observation]:
-        both = {"acceleration": self._motion, "velocity": self._velocity}
-        return {name: seen for name, seen in both.items() if seen is not None}
+        all_three = {
+            "acceleration": self._motion,
+            "velocity": self._velocity,
+            "displacement": self._strained,
+        }
+        return {name: seen for name, seen in all_three.items() if seen is not None}
 
     def found(self, loads: Sequence[AttachmentLoads]) -> PartsFound:
         """After the transient, whose load cases these loads are."""
@@ -190,6 +206,7 @@ class PartsWatch:
         return PartsFound(
             time=self._motion.time,
             cuts=self.cuts,
+            stations=self.stations,
             places=self.places,
             cases=tuple(cases),
             total=self._stresses(-1) if self._steady else None,
@@ -217,9 +234,21 @@ class PartsWatch:
                 name: cuts.loads(part, loads.node_id, applied)
                 for (name, cuts), part in zip(self.cuts.items(), inertia)
             },
+            monitors=self._monitors(case, inertia[len(self.cuts) :], applied),
             acceleration={int(g): moved[:, i] for i, g in enumerate(self.grids)},
             stress=self._stresses(case),
         )
+
+    def _monitors(
+        self, case: int, inertia: list[Float64], applied: Float64
+    ) -> dict[str, Float64]:
+        """Loads of the monitor points; `inertia` of those of MONPNT1 comes first."""
+        moved = {s.name: part for s, part in zip(self._inertial, inertia)}
+        if self._strained is not None:
+            values = self._strained.values[:, case]
+            parts = np.split(values, len(self._elastic), axis=1)
+            moved |= {s.name: part for s, part in zip(self._elastic, parts)}
+        return {s.name: s.values(moved[s.name], applied) for s in self.stations}
 
     def _stresses(self, case: int) -> pd.DataFrame:
         seen = self._stress

@@ -35,6 +35,7 @@ from drake_landing.conditions.peaks import landing_peaks, sink_rate
 from drake_landing.conditions.pictures import load_pictures
 from drake_landing.files import write_csv
 from drake_landing.parts.cuts import envelope_table
+from drake_landing.parts.monitors import monitor_envelopes
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.tables import worst_elements
 from drake_landing.parts.watch import PartsWatch
@@ -63,6 +64,7 @@ class ConditionsResult:
         left_out: paragraph -> why it has none.
         balances: of all cases.
         cases, gear_loads, attachment_loads, worst, sections: tables, SI.
+        monitors: extremes at the deck's monitor points; empty: it has none.
         error: of the equilibrium, largest of all cases, over the largest load.
         notices: what the user should know.
     """
@@ -76,6 +78,7 @@ class ConditionsResult:
     attachment_loads: pd.DataFrame = field(repr=False)
     worst: pd.DataFrame = field(repr=False)
     sections: pd.DataFrame = field(repr=False)
+    monitors: pd.DataFrame = field(repr=False)
     error: float
     notices: tuple[str, ...] = ()
 
@@ -238,7 +241,9 @@ def solve(
         attachment_loads=_attachment_table(held, split),
         worst=_worst(case, watch, answers),
         sections=_sections(watch, answers),
+        monitors=_monitors(watch, answers),
         error=error,
+        notices=watch.notices,
     )
 
 
@@ -383,6 +388,23 @@ def _sections(watch: PartsWatch, answers: _Answers) -> pd.DataFrame:
     )
 
 
+def _monitors(watch: PartsWatch, answers: _Answers) -> pd.DataFrame:
+    """Extremes at the deck's monitor points over all cases, without steady flight."""
+    motion, numbers = answers.motion(), np.arange(1, answers.count + 1)
+    strained = answers.held.displacement @ answers.split
+    values = {}
+    for s in watch.stations:
+        if s.of_acceleration is not None:
+            moved = np.asarray(s.of_acceleration @ motion).T
+        else:
+            moved = np.asarray(s.of_displacement @ strained).T
+        values[s.name] = s.values(moved, answers.node_loads)
+    table = monitor_envelopes(watch.stations, numbers, values)
+    return table.rename(
+        columns={"time_of_min": "case_of_min", "time_of_max": "case_of_max"}
+    )
+
+
 def _write_deck(
     path: Path,
     case: Case,
@@ -427,6 +449,8 @@ def write_tables(result: ConditionsResult, out: Path) -> None:
     write_csv(out / "attachment_loads.csv", result.attachment_loads)
     write_csv(out / "worst_stresses.csv", result.worst)
     write_csv(out / "section_loads.csv", result.sections)
+    if len(result.monitors):
+        write_csv(out / "monitor_points.csv", result.monitors)
 
 
 def summary(result: ConditionsResult, case: Case, out: Path) -> str:

@@ -163,6 +163,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
                     *map(case.places.named, remarks),
                     *fast_mode_notices(airframe.body, case.simulation),
                     *stress_point_notices(structure),
+                    *full.watch.notices,
                 ]
             )
         ),
@@ -368,6 +369,13 @@ def write_files(result: ProcessResult, out: Path) -> None:
     for name, table in extremes.items():
         late = flagged(table, result.loads.time[-1], result.swing)
         write_csv(out / f"{name}.csv", units.with_units(late))
+    if parts.stations:
+        monitors = tables.monitor_extremes(parts)
+        monitors = monitors.assign(unit=units.of_quantities(monitors))
+        late = flagged(monitors, result.loads.time[-1], result.swing)
+        write_csv(out / "monitor_points.csv", units.with_units(late))
+        over_time = units.with_units(tables.monitors_over_time(parts))
+        write_csv(out / "monitor_histories.csv", over_time, index=True)
     gears = result.gears.assign(unit=units.of_quantities(result.gears))
     write_csv(out / "gears.csv", flagged(gears, history.time[-1], result.swing))
     write_csv(out / "late_extremes.csv", units.with_units(result.late))

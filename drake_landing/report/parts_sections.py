@@ -57,6 +57,8 @@ def parts_sections(
         unable: why there are none.
     """
     yield _section_loads(result)
+    if result.parts.stations:
+        yield _monitor_points(result)
     yield _stresses(result, pictures, unable)
     if result.parts.places.panels:
         yield _panels(result)
@@ -200,6 +202,38 @@ def _section_loads(result: "ProcessResult") -> Section:
         f"{found.imbalance[1]:.0e} of the moment.{also} All six components: "
         "results.h5, group parts/sections; extremes: section_loads.csv.",
         blocks=blocks,
+    )
+
+
+def _monitor_points(result: "ProcessResult") -> Section:
+    table = tables.monitor_extremes(result.parts)
+    table[["min", "max"]] /= 1e3
+    heads = {
+        "name": "monitor point",
+        "label": "label",
+        "card": "card",
+        "frame": "axes of frame",
+        "point_x": "about x m",
+        "point_y": "y m",
+        "point_z": "z m",
+        "quantity": "quantity",
+        "min": "least kN, kN m",
+        "time_of_min": "at s",
+        "max": "largest kN, kN m",
+        "time_of_max": "at s ",
+    }
+    formats = {"min": ".2f", "max": ".2f"}
+    formats |= dict.fromkeys(("point_x", "point_y", "point_z"), ".2f")
+    formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
+    return Section(
+        id="monitors",
+        title="Monitor points of the deck",
+        text="As increments to steady flight. MONPNT1: the gears' loads and the inertia "
+        "of the grids of its component. MONPNT3: the elastic forces of the elements at "
+        "its grids. F1 to M3 along the axes of the frame CD, moments about the point, "
+        "which stands in the deck's basic frame. Over time: monitor_histories.csv, "
+        "results.h5, group parts/monitor_points.",
+        blocks=[table_block(table, heads, formats, "Extremes")],
     )
 
 

@@ -196,6 +196,15 @@ def _write_parts(group: h5py.Group, parts: "PartsFound") -> None:
         at.attrs["outward"], at.attrs["axis"] = beam.outward, beam.axis
         for quantity, axis in zip(NAMED, (beam.lift, beam.across, beam.direction)):
             at.attrs[quantity] = axis
+    for station in parts.stations:
+        at = group.create_group(f"monitor_points/{group_name(station.name)}")
+        at["value"] = parts.landing.monitors[station.name]
+        at["value"].attrs["columns"] = station.quantities
+        at["value"].attrs["units"] = [unit_of(q) for q in station.quantities]
+        _dataset(at, "point", station.point.point, "m")
+        _dataset(at, "rotation", station.point.rotation, "1")
+        for key in ("card", "label", "frame"):
+            at.attrs[key] = getattr(station.point, key)
     for grid, values in parts.landing.acceleration.items():
         _dataset(group, f"acceleration/{grid}", values, "m/s²")
     stress = group.create_group("stress")

@@ -38,6 +38,9 @@ _LINES = {
     "that moments refer to, unit in `unit`",
     "section_roots.csv": "section loads over time at the cut of each part that is "
     "looked at",
+    "monitor_points.csv": "extremes of the deck's monitor points (MONPNT1, MONPNT3), "
+    "along the axes of their frame, unit in `unit`",
+    "monitor_histories.csv": "the same over time",
     "worst_stresses.csv": "ten elements of each component with the least margin or the "
     "largest stress",
     "worst_elements.csv": "of each result quantity the ten elements that see most, "
@@ -49,7 +52,8 @@ _LINES = {
     "report.pdf": "the report, printed",
     README: "this text",
 }
-_SOMETIMES = ("airframe.bdf", "practices.csv", "report.pdf", "pictures")
+_SOMETIMES = ("airframe.bdf", "practices.csv", "report.pdf", "pictures",
+              "monitor_points.csv", "monitor_histories.csv")  # fmt: skip
 
 
 def file_lines(result: "ProcessResult", folder: Path) -> list[tuple[str, str]]:

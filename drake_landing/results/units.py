@@ -14,8 +14,12 @@ _COLUMNS = {
     **{"memory_gb": "GB", "shear": "N", "bending": "N m", "torsion": "N m"},
     **dict.fromkeys(("peak_fe", "peak_mbs"), "m/s²"),
     "highest_hz": "Hz",
+    **dict.fromkeys(("F1", "F2", "F3"), "N"),  # monitor points, along their frame
+    **dict.fromkeys(("M1", "M2", "M3"), "N m"),
 }
 _QUANTITIES = {
+    **dict.fromkeys(("F1", "F2", "F3"), "N"),
+    **dict.fromkeys(("M1", "M2", "M3"), "N m"),
     **dict.fromkeys(("tyre_vertical", "tyre_drag", "shear"), "N"),
     **dict.fromkeys((f"attachment_f{a}" for a in "xyz"), "N"),
     **dict.fromkeys((f"attachment_m{a}" for a in "xyz"), "N m"),

@@ -16,6 +16,7 @@ from fem.deck.values import Malformed
 _MOST_UNREAD = 20  # lines that are listed
 _SEPARATOR = re.compile(r"\s*,\s*|\s+")
 _MNEMONIC = re.compile(r"(?!THRU|BY|EXCEPT|ENDT|SKIP)[A-Z][A-Z0-9]*$")
+_LABELLED = frozenset({"MONPNT1", "MONPNT3"})  # the rest of their first line is a text
 _NAME = re.compile(r"[A-Z][A-Z0-9_]{0,15}$")
 
 
@@ -203,6 +204,8 @@ def split_line(text: str) -> tuple[str, list[str], str, bool]:
         data = [text[i : i + 8].strip() for i in range(8, stop, 8)]
         large = False
     marker = text[72:80].strip().lstrip("+*") if len(text) > 72 else ""
+    if head in _LABELLED:
+        data = [text[8:16].strip(), text[16:72].strip()]
     while data and not data[-1]:
         data.pop()
     return head, data, marker, large
@@ -211,6 +214,11 @@ def split_line(text: str) -> tuple[str, list[str], str, bool]:
 def _split_free(text: str) -> tuple[str, list[str], str, bool]:
     parts = _SEPARATOR.split(text.strip())
     head = parts[0]
+    if head in _LABELLED:
+        words = [part.strip() for part in text.split(",")]
+        marks = [w for w in words[3:] if w.startswith("+")]
+        label = ", ".join(w for w in words[2:] if w and w not in marks)
+        return head, [words[1], label], (marks or ["+"])[0].lstrip("+"), False
     large = head[-1:] == "*" or head[:1] == "*"
     last = 5 if large else 9
     data, marker = parts[1:last], ""

@@ -1,9 +1,10 @@
-"""Modes, and lines of plots."""
+"""Modes, lines of plots, monitor points."""
 
-from fem.deck.cards import finish, from_pynastran
+from fem.deck import conversions
+from fem.deck.cards import finish, from_pynastran, monitors
 from fem.deck.records.card import Card, Element, Topology
 
-_MODES = "Modes"
+_MODES, _MONITORS = "Modes", "Monitor points (of landings)"
 
 RECORDS = (
     Card(
@@ -43,4 +44,28 @@ RECORDS = (
             )
         ),
     ),
+    # What they refer to is looked at where they are used: decks of aeroelastic models
+    # have some that have nothing to do with the structure.
+    Card(
+        name="MONPNT1",
+        group=_MONITORS,
+        read=monitors.monpnt1,
+        more="name:s label:s axes:c comp:s cp:i x1:f x2:f x3:f cd:i",
+        convert=conversions.grid,
+    ),
+    Card(
+        name="MONPNT3",
+        group=_MONITORS,
+        read=monitors.monpnt3,
+        more="name:s label:s axes:c gridset:i elemset:i cp:i x1:f x2:f x3:f xflag:s "
+        "cd:i",
+        convert=conversions.grid,
+    ),
+    Card(
+        name="AECOMP",
+        group=_MONITORS,
+        read=monitors.aecomp,
+        more="name:s type:s lists:*",
+    ),
+    Card(name="AECOMPL", group=_MONITORS, read=monitors.aecompl, table="AECOMP"),
 )

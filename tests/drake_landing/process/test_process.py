@@ -345,3 +345,39 @@ def test_aircraft_can_be_sent_to_another_process(tmp_path: Path) -> None:
     sent = pickle.loads(pickle.dumps(aircraft))
     grids = sent.read(sent.deck).cards["GRID"]
     assert grids.equals(aircraft.read(aircraft.deck).cards["GRID"])
+
+
+def test_monitor_points_of_the_deck_are_stations(
+    result: ProcessResult, folder: Path
+) -> None:
+    """Their MONPNT1 is the section load of the grids that it sums, in every file."""
+    found = result.parts
+    values = found.landing.monitors
+    outside = np.isin(result.airframe.structure.points.grid_id, [23, 24])
+    beam, cut = next(
+        (name, k)
+        for name, cuts in found.cuts.items()
+        for k in range(len(cuts.point))
+        if np.array_equal(cuts.strip >= k, outside)
+    )
+    section = found.landing.sections[beam][:, cut]
+    size = np.abs(section).max()
+    assert values["WING4"][:, :3] == pytest.approx(section[:, :3], abs=1e-9 * size)
+    arm = found.cuts[beam].point[cut] - [8.0, 4.0, 0.0]
+    moment = section[:, 3:] + np.cross(arm, section[:, :3])
+    assert values["WING4"][:, 3:] == pytest.approx(moment, abs=1e-9 * size)
+    # What the bar carries, but for what its damping does.
+    rest = np.abs(values["BAR111"] - values["WING4"])[:, [2, 3]]
+    assert rest.max() < 0.1 * np.abs(values["WING4"][:, [2, 3]]).max()
+    table = pd.read_csv(folder / "monitor_points.csv")
+    assert table.name.unique().tolist() == ["WING4", "BAR111"]
+    assert table.label[0] == "WING, STARBOARD, OUTBOARD OF THE SECOND BAY"
+    third = table[(table.name == "WING4") & (table.quantity == "F3")].iloc[0]
+    assert third["max"] == pytest.approx(values["WING4"][:, 2].max())
+    assert third["unit"] == "N"
+    with h5py.File(folder / "results.h5") as file:
+        group = file["parts/monitor_points/WING4"]
+        assert np.array_equal(group["value"], values["WING4"])
+        assert group.attrs["card"] == "MONPNT1"
+    assert "Monitor points of the deck" in (folder / "report.html").read_text()
+    assert "monitor_points.csv" in (folder / "README.txt").read_text()
