@@ -26,6 +26,7 @@ from drake_landing.airframe.basis import Basis
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import LandingHistory
 from drake_landing.parts.cuts import BeamCuts
+from drake_landing.parts.monitors import Station
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.stress_rows import StressMaps
 from fem.arrays import Float64, Int64
@@ -42,6 +43,7 @@ class ScreeningBasis:
         shape: (f, n + 6 k) displacements of the free set.
         stress: per part of `Stresses` (e per_element, n + 6 k), single precision.
         sections: beam -> (cuts, 6, n + 6 k) section loads.
+        monitors: monitor point of the deck -> (q, n + 6 k) its loads.
     """
 
     node_id: Int64
@@ -49,6 +51,7 @@ class ScreeningBasis:
     shape: Float64 = field(repr=False)
     stress: tuple[np.ndarray, ...] = field(repr=False)
     sections: Mapping[str, Float64] = field(repr=False)
+    monitors: Mapping[str, Float64] = field(default_factory=dict, repr=False)
 
     def section_loads(self, beam: str, amplitudes: Float64) -> Float64:
         """(t, cuts, 6) under amplitudes (n + 6 k, t)."""
@@ -61,6 +64,7 @@ def screening_basis(
     node_id: Int64,
     maps: StressMaps,
     cuts: Mapping[str, BeamCuts],
+    stations: Sequence[Station] = (),
 ) -> ScreeningBasis:
     """Static answers, stress modes and section loads of a full model.
 
@@ -70,6 +74,7 @@ def screening_basis(
         node_id: grids that the gears load, ascending.
         maps: of all elements with stresses.
         cuts: beam -> its cuts, made with these loaded nodes.
+        stations: monitor points of the deck, likewise.
     """
     pattern = np.asarray(structure.operator(node_id, frame="basic").T.toarray())
     mass, shape = structure.mass, basis.shape
@@ -90,6 +95,10 @@ def screening_basis(
             name: _sections(structure, basis, node_id, pattern, cut)
             for name, cut in cuts.items()
         },
+        monitors={
+            s.name: _monitor(structure, basis, node_id, pattern, columns, s)
+            for s in stations
+        },
     )
 
 
@@ -101,15 +110,44 @@ def _sections(
     cuts: BeamCuts,
 ) -> Float64:
     """(cuts, 6, n + 6 k): every column is an instant of its own for the cuts."""
+    motion = _motion(structure, basis, pattern)
+    inertia = np.asarray(cuts.of_acceleration @ motion).T
+    load = _unit_loads(basis, node_id)
+    return np.moveaxis(cuts.loads(inertia, node_id, load), 0, -1)
+
+
+def _monitor(
+    structure: Structure,
+    basis: Basis,
+    node_id: Int64,
+    pattern: Float64,
+    columns: Float64,
+    station: Station,
+) -> Float64:
+    """(q, n + 6 k), likewise; elastic forces by the displacements of the columns."""
+    if station.of_displacement is not None:
+        moved = np.asarray(station.of_displacement @ columns).T
+    else:
+        moved = np.asarray(
+            station.of_acceleration @ _motion(structure, basis, pattern)
+        ).T
+    return station.values(moved, _unit_loads(basis, node_id)).T
+
+
+def _motion(structure: Structure, basis: Basis, pattern: Float64) -> Float64:
+    """(f, n + 6 k) accelerations that each amplitude stands for."""
     omega2 = (2.0 * np.pi * basis.frequency_hz) ** 2
     rigid = basis.rigid_modes(structure.mass)
     taken = rigid @ (rigid.T @ pattern) + basis.shape @ (basis.shape.T @ pattern)
-    motion = np.hstack([-basis.shape * omega2, taken])
+    return np.hstack([-basis.shape * omega2, taken])
+
+
+def _unit_loads(basis: Basis, node_id: Int64) -> Float64:
+    """(n + 6 k, k, 6) loads that each amplitude stands for."""
     n, k = basis.shape.shape[1], len(node_id)
     load = np.zeros((n + 6 * k, k, 6))
     load[n:] = np.eye(6 * k).reshape(6 * k, k, 6)
-    inertia = np.asarray(cuts.of_acceleration @ motion).T
-    return np.moveaxis(cuts.loads(inertia, node_id, load), 0, -1)
+    return load
 
 
 def amplitudes(

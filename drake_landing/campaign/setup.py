@@ -23,7 +23,11 @@ from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.campaign.basis import ScreeningBasis, screening_basis
 from drake_landing.case.schema import Case
 from drake_landing.parts.cuts import BeamCuts
+<<<<<<< HEAD
 from drake_landing.parts.element_maps import Extension
+=======
+from drake_landing.parts.monitors import Station, without_maps
+>>>>>>> a89bf9b (Monitor points in campaigns: extremes and hulls of all pairs; static equilibrium of them tested)
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.stress import StressPart
 from drake_landing.parts.stress_rows import Map, StressRows, stress_maps
@@ -47,6 +51,7 @@ class LandingSetup:
         rows: elements with stresses, without their maps.
         steady: per part, stresses of steady flight; None: not known.
         cuts: beam -> its cuts, without their maps.
+        stations: monitor points of the deck, without their maps.
         elements: id, card, component, material, x, y, z, allowed of each, in the order
             of the rows.
         highest_hz: of the modes.
@@ -58,6 +63,7 @@ class LandingSetup:
     rows: tuple[StressRows, ...] = field(repr=False)
     steady: list[np.ndarray] | None = field(repr=False)
     cuts: Mapping[str, BeamCuts] = field(repr=False)
+    stations: tuple[Station, ...] = field(repr=False)
     elements: pd.DataFrame = field(repr=False)
     highest_hz: float
 
@@ -157,8 +163,15 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         flight = balanced(structure, aircraft.steady_load(structure))
         steady = flight.displacement[:, 0]
     watch = parts_watch(case, aircraft, structure, nodes, steady)
+<<<<<<< HEAD
     maps, cuts = stress_maps(watch.stresses), watch.cuts
     answers = screening_basis(structure, airframe.basis, nodes, maps, cuts)
+=======
+    rows, cuts = stress_rows(watch.stresses), watch.cuts
+    answers = screening_basis(
+        structure, airframe.basis, nodes, rows, cuts, watch.stations
+    )
+>>>>>>> a89bf9b (Monitor points in campaigns: extremes and hulls of all pairs; static equilibrium of them tested)
     setup = LandingSetup(
         body=airframe.body,
         node_id=nodes,
@@ -166,6 +179,7 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         rows=tuple(map(_without_map, maps.rows)),
         steady=None if steady is None else maps.of(steady),
         cuts={name: _without_maps(c) for name, c in cuts.items()},
+        stations=tuple(map(without_maps, watch.stations)),
         elements=watch.rows,
         highest_hz=airframe.highest_hz,
     )
@@ -180,7 +194,11 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
     key = content_key(
         source_key("fem", "systems", "drake_landing"),
         *(structure.stiffness, structure.mass, airframe.basis.shape, nodes),
-        [*setup.basis.stress, *setup.basis.sections.values()],
+        [
+            *setup.basis.stress,
+            *setup.basis.sections.values(),
+            *setup.basis.monitors.values(),
+        ],
         None if steady is None else steady,
     )
     return Prepared(
@@ -221,6 +239,7 @@ def _slim(basis: ScreeningBasis) -> ScreeningBasis:
         shape=np.zeros((0, basis.shape.shape[1])),
         stress=basis.stress,
         sections=basis.sections,
+        monitors=basis.monitors,
     )
 
 

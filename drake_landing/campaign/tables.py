@@ -6,6 +6,8 @@
     screening_error    per component: the screening against direct transients
     sections           per cut: extremes of shear, bending, torsion
     section_hulls      per cut and pair of loads: landings on the hull
+    monitor_points     per monitor point of the deck (MONPNT1, MONPNT3): extremes
+    monitor_hulls      per monitor point and pair of its loads: landings on the hull
     critical_cases     a short list of landings that holds the extremes of all elements
     exceedance         per quantity: how often a value is exceeded
     fatigue            per component: cycles and damage (where an S-N curve is given)
@@ -31,8 +33,7 @@ from drake_landing.campaign.screening import history_of
 from drake_landing.campaign.selection import Largest, largest, stress_of
 from drake_landing.campaign.setup import Prepared
 from drake_landing.campaign.statistics import exceedance_tables
-from drake_landing.campaign.task import PAIRS, case_file
-from drake_landing.parts.cuts import NAMED
+from drake_landing.campaign.task import case_file
 from drake_landing.parts.stress_rows import starts
 from drake_landing.parts.tables import with_margin
 from fem.arrays import Float64
@@ -50,6 +51,8 @@ _UNITS = {
     "screening_error": "shares of the component's largest stress (1 = 100 %)",
     "sections": "m; N, N m, N m; s",
     "section_hulls": "m; N or N m; s",
+    "monitor_points": "m; N, N m; s",
+    "monitor_hulls": "N or N m; s",
     "critical_cases": "elements; share of the elements",
     "exceedance": "SI; share of landings, with the bounds of 90 % confidence",
     "fatigue": "Pa; cycles and damage of all landings of the campaign, once each",
@@ -68,6 +71,8 @@ def write_tables(result: CampaignResult) -> Tables:
     tables["components"] = _components(tables["stress"])
     tables["screening_error"] = result.errors.reset_index()
     tables["sections"], tables["section_hulls"] = _sections(result)
+    if any(own.setup.stations for own in result.prepared.values()):
+        tables["monitor_points"], tables["monitor_hulls"] = _monitors(result)
     tables["critical_cases"] = _critical(result, worst)
     peaks = tables["cases"].set_index("case").filter(like=":")
     tables["exceedance"] = exceedance_tables(peaks.dropna(how="all"))
@@ -181,39 +186,65 @@ def _components(stress: pd.DataFrame) -> pd.DataFrame:
 
 
 def _sections(result: CampaignResult) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Extremes at all cuts, and the landings on their hulls."""
+    extremes, hulls = _stations(result, "sections")
+    return extremes.rename(columns={"name": "beam"}), hulls.rename(
+        columns={"name": "beam"}
+    )
+
+
+def _monitors(result: CampaignResult) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """The same at the deck's monitor points, with their labels."""
+    extremes, hulls = _stations(result, "monitor_points")
+    labels = {
+        s.name: (s.point.label, s.point.frame, *s.point.point.tolist())
+        for own in result.prepared.values()
+        for s in own.setup.stations
+    }
+    extremes, hulls = (t.drop(columns="station") for t in (extremes, hulls))
+    heads = ("label", "frame", "point_x", "point_y", "point_z")
+    for k, head in enumerate(heads):
+        extremes.insert(1 + k, head, [labels[name][k] for name in extremes.name])
+    return extremes, hulls
+
+
+def _stations(result: CampaignResult, kind: str) -> tuple[pd.DataFrame, pd.DataFrame]:
     extremes: dict[tuple, list] = {}
     points: dict[tuple, list] = {}
     for number in result.flown:
         with h5py.File(case_file(result.cases, number)) as file:
-            for beam, group in file["sections"].items():
-                _gather(extremes, points, beam, group, number)
+            for name, group in file[kind].items():
+                name = str(group.attrs.get("name", name))
+                _gather(extremes, points, name, group, number)
     rows = [[*key, *value] for key, value in extremes.items()]
-    heads = ["beam", "station", "quantity"]
+    heads = ["name", "station", "quantity"]
     heads += ["min", "case_of_min", "time_of_min", "max", "case_of_max", "time_of_max"]
     hulls = []
-    for (beam, station, pair), found in points.items():
+    for (name, station, pair), found in points.items():
         table = np.array(found, float)
         for at in hull_rows(table[:, 2:]):
             case, time, x, y = table[at]
-            hulls.append([beam, station, "-".join(PAIRS[pair]), x, y, int(case), time])
-    names = ["beam", "station", "pair", "x", "y", "case", "time"]
+            hulls.append([name, station, pair, x, y, int(case), time])
+    names = ["name", "station", "pair", "x", "y", "case", "time"]
     return pd.DataFrame(rows, columns=heads), pd.DataFrame(hulls, columns=names)
 
 
 def _gather(
     extremes: dict[tuple, list],
     points: dict[tuple, list],
-    beam: str,
+    name: str,
     group: h5py.Group,
     number: int,
 ) -> None:
-    station = np.asarray(group["station"])
     low, high = np.asarray(group["min"]), np.asarray(group["max"])
     at_low, at_high = np.asarray(group["time_of_min"]), np.asarray(group["time_of_max"])
+    quantities = str(group["min"].attrs["columns"]).split()
+    pairs = str(group["hull"].attrs["pairs"]).split("; ")
+    station = np.asarray(group["station"]) if "station" in group else np.zeros(len(low))
     for i, s in enumerate(station.tolist()):
-        for q, quantity in enumerate(NAMED):
+        for q, quantity in enumerate(quantities):
             old = extremes.setdefault(
-                (beam, s, quantity), [np.inf, -1, 0.0, -np.inf, -1, 0.0]
+                (name, s, quantity), [np.inf, -1, 0.0, -np.inf, -1, 0.0]
             )
             if low[i, q] < old[0]:
                 old[:3] = [low[i, q], number, at_low[i, q]]
@@ -222,7 +253,7 @@ def _gather(
     for (cut, pair), (time, x, y) in zip(
         np.asarray(group["hull_of"]).tolist(), np.asarray(group["hull"]).tolist()
     ):
-        points.setdefault((beam, float(station[cut]), pair), []).append(
+        points.setdefault((name, float(station[cut]), pairs[pair]), []).append(
             (number, time, x, y)
         )
 

@@ -7,8 +7,9 @@ when it is complete. A case that cannot be flown leaves a file that says why.
 
 import json
 import traceback
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from typing import Literal
 
@@ -33,6 +34,7 @@ from drake_landing.parts.cuts import NAMED
 from fem.arrays import Float64
 from fem.errors import InputError
 from fem.files.aside import written_aside
+from fem.files.escaping import group_name
 from fem.files.hdf5_aside import written_hdf5
 
 Status = Literal["done", "suspect", "failed"]
@@ -127,6 +129,7 @@ def _run(task: LandingTask) -> Status:
         _write_loads(file, loads, z, setup)
         _write_stresses(file, found, loads)
         _write_sections(file, setup, z, loads)
+        _write_monitors(file, setup, z, loads)
         _write_peaks(file, case, history)
     failure_file(task.folder, task.number).unlink(missing_ok=True)
     return status
@@ -233,26 +236,51 @@ def _write_sections(
         named = cuts.named(setup.basis.section_loads(beam, z))
         own = group.create_group(beam)
         _dataset(own, "station", cuts.beam.stations, "m")
-        low, high = named.argmin(axis=0), named.argmax(axis=0)
-        for name, at in (("min", low), ("max", high)):
-            value = np.take_along_axis(named, at[None], axis=0)[0]
-            _dataset(own, name, value, "N, N m, N m", columns=" ".join(NAMED))
-            _dataset(own, f"time_of_{name}", loads.time[at], "s")
-        rows, points = [], []
-        for cut in range(named.shape[1]):
-            for pair, (a, b) in enumerate(PAIRS):
-                i, j = NAMED.index(a), NAMED.index(b)
-                for at in hull_rows(named[:, cut, [i, j]]):
-                    rows.append((cut, pair))
-                    points.append((loads.time[at], *named[at, cut, [i, j]]))
-        _dataset(own, "hull_of", np.array(rows, np.int32).reshape(-1, 2), "cut, pair")
-        _dataset(
-            own,
-            "hull",
-            np.array(points, np.float64).reshape(-1, 3),
-            "s, then N or N m",
-            pairs="; ".join("-".join(p) for p in PAIRS),
-        )
+        _write_extremes(own, named, NAMED, PAIRS, loads)
+
+
+def _write_monitors(
+    file: h5py.File, setup: LandingSetup, z: Float64, loads: AttachmentLoads
+) -> None:
+    """The same of the monitor points, with hulls of all pairs of their loads."""
+    group = file.create_group("monitor_points")
+    for station in setup.stations:
+        values = (setup.basis.monitors[station.name] @ z).T[:, None]
+        own = group.create_group(group_name(station.name))
+        own.attrs["name"] = station.name
+        pairs = tuple(combinations(station.quantities, 2))
+        _write_extremes(own, values, station.quantities, pairs, loads)
+
+
+def _write_extremes(
+    own: h5py.Group,
+    named: Float64,
+    quantities: Sequence[str],
+    pairs: Sequence[tuple[str, str]],
+    loads: AttachmentLoads,
+) -> None:
+    """Of loads (t, n, q) at n places."""
+    units = ", ".join("N" if q[0] in "sF" else "N m" for q in quantities)
+    low, high = named.argmin(axis=0), named.argmax(axis=0)
+    for name, at in (("min", low), ("max", high)):
+        value = np.take_along_axis(named, at[None], axis=0)[0]
+        _dataset(own, name, value, units, columns=" ".join(quantities))
+        _dataset(own, f"time_of_{name}", loads.time[at], "s")
+    rows, points = [], []
+    for cut in range(named.shape[1]):
+        for pair, (a, b) in enumerate(pairs):
+            i, j = quantities.index(a), quantities.index(b)
+            for at in hull_rows(named[:, cut, [i, j]]):
+                rows.append((cut, pair))
+                points.append((loads.time[at], *named[at, cut, [i, j]]))
+    _dataset(own, "hull_of", np.array(rows, np.int32).reshape(-1, 2), "cut, pair")
+    _dataset(
+        own,
+        "hull",
+        np.array(points, np.float64).reshape(-1, 3),
+        "s, then N or N m",
+        pairs="; ".join("-".join(p) for p in pairs),
+    )
 
 
 def _write_peaks(file: h5py.File, case: Case, history: LandingHistory) -> None:

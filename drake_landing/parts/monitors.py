@@ -5,7 +5,7 @@ the gears' loads; what MONPNT3 sums of elements is one of displacements.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pandas as pd
@@ -80,6 +80,13 @@ def stations(
             of_load = (p.outside @ pattern).toarray()
         made.append(Station(point=p, name=name, of_load=of_load, **maps))
     return tuple(made), found.notices
+
+
+def without_maps(station: Station) -> Station:
+    """What tells names and places of a station."""
+    nothing = np.zeros(0, np.int64)
+    point = replace(station.point, grids=nothing, outside=None, elastic=None)
+    return Station(point=point, name=station.name, of_load=np.zeros((6, 0)))
 
 
 def monitor_envelopes(

@@ -228,11 +228,11 @@ def _monitor_points(result: "ProcessResult") -> Section:
     return Section(
         id="monitors",
         title="Monitor points of the deck",
-        text="As increments to steady flight. MONPNT1: the gears' loads and the inertia "
-        "of the grids of its component. MONPNT3: the elastic forces of the elements at "
-        "its grids. F1 to M3 along the axes of the frame CD, moments about the point, "
-        "which stands in the deck's basic frame. Over time: monitor_histories.csv, "
-        "results.h5, group parts/monitor_points.",
+        text="As increments to steady flight. MONPNT1: the gears' loads and the "
+        "inertia of the grids of its component. MONPNT3: the elastic forces of the "
+        "elements at its grids. F1 to M3 along the axes of the frame CD, moments about "
+        "the point, which stands in the deck's basic frame. Over time: "
+        "monitor_histories.csv, results.h5, group parts/monitor_points.",
         blocks=[table_block(table, heads, formats, "Extremes")],
     )
 

@@ -194,6 +194,12 @@ def _introduce(structure: Structure, options: Options) -> None:
         f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
         f"{i[0, 2]:.5g} {i[1, 2]:.5g}"
     )
+    cards = structure.deck.cards
+    if count := sum(len(cards[name]) for name in ("MONPNT1", "MONPNT3")):
+        console.say(
+            f"notice: {count} monitor points are not evaluated here; landings, static "
+            "conditions and campaigns do (drake-landing)"
+        )
     for notice in by_kind(structure.notices):
         console.say(f"notice: {notice}")
     if options.quality and not structure.quality.empty:

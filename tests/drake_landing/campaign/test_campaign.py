@@ -102,6 +102,27 @@ def test_envelope_holds_every_landing(result: CampaignResult) -> None:
         assert (table.equivalent.to_numpy() >= by_id * (1 - 1e-6)).all()
 
 
+def test_monitor_points_of_the_deck_have_extremes_and_hulls(
+    result: CampaignResult,
+) -> None:
+    folder = result.folder / "tables"
+    table = pd.read_parquet(folder / "monitor_points.parquet")
+    labels = set(table[table.name == "WING4"].label)
+    assert labels == {"WING, STARBOARD, OUTBOARD OF THE SECOND BAY"}
+    wide = table.pivot(index="quantity", columns="name", values="max")
+    assert list(wide.index) == ["F1", "F2", "F3", "M1", "M2", "M3"]
+    # Loads and inertia beyond the cut against the force of the bar there, which its
+    # damping does not change here: both are quasi-static.
+    for quantity in ("F3", "M1"):
+        outside, bar = wide.loc[quantity, ["WING4", "BAR111"]]
+        assert outside > 0.0
+        assert bar == pytest.approx(outside, rel=1e-2)
+    hulls = pd.read_parquet(folder / "monitor_hulls.parquet")
+    own = hulls[(hulls.name == "WING4") & (hulls.pair == "F3-M1")]
+    assert own.x.max() == pytest.approx(wide.loc["F3", "WING4"], rel=2e-3)
+    assert set(own.case) <= set(result.flown)
+
+
 def test_resume_computes_nothing_and_changes_nothing(result: CampaignResult) -> None:
     files = sorted(result.cases.glob("*.h5"))
     before = {f: f.stat().st_mtime_ns for f in files}

@@ -125,6 +125,17 @@ def test_more_holds_than_six_share_the_load_by_the_airframe(found):
     assert seen[own[6]] == pytest.approx((u + np.cross(turn, at[5] - at[52]))[0])
 
 
+def test_monitor_points_of_the_deck_are_in_static_equilibrium(found):
+    """Loads and inertia outboard of the bar against what it carries, case by case."""
+    table = found[2].monitors.set_index(["name", "quantity"])
+    for quantity in ("F1", "F2", "F3", "M1", "M2", "M3"):
+        outside, bar = (table.loc[(name, quantity)] for name in ("WING4", "BAR111"))
+        size = table.loc["WING4"]["max"].abs().max()
+        for end in ("min", "max"):
+            assert bar[end] == pytest.approx(outside[end], abs=1e-6 * size)
+    assert (table["max"] > 0.0).any()
+
+
 def test_unknown_gears_in_conditions_are_refused():
     case = tiny("\nconditions: {vertical: {main_rihgt: 1e5}}\n")
     with pytest.raises(InputError, match="did you mean 'main_right'"):

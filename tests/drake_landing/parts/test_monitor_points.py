@@ -1,10 +1,6 @@
 """Monitor points of a deck: against grid point forces, statics and section loads."""
 
-from pathlib import Path
-
-import h5py
 import numpy as np
-import pandas as pd
 import pytest
 
 from drake_landing.parts.monitors import stations
