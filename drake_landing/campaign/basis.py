@@ -17,7 +17,7 @@ section loads, for which
 (damping within the structure left out). Φ_r are the rigid motions, mass-normalised.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np

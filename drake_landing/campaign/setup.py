@@ -23,11 +23,8 @@ from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.campaign.basis import ScreeningBasis, screening_basis
 from drake_landing.case.schema import Case
 from drake_landing.parts.cuts import BeamCuts
-<<<<<<< HEAD
 from drake_landing.parts.element_maps import Extension
-=======
 from drake_landing.parts.monitors import Station, without_maps
->>>>>>> a89bf9b (Monitor points in campaigns: extremes and hulls of all pairs; static equilibrium of them tested)
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.stress import StressPart
 from drake_landing.parts.stress_rows import Map, StressRows, stress_maps
@@ -163,15 +160,10 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         flight = balanced(structure, aircraft.steady_load(structure))
         steady = flight.displacement[:, 0]
     watch = parts_watch(case, aircraft, structure, nodes, steady)
-<<<<<<< HEAD
     maps, cuts = stress_maps(watch.stresses), watch.cuts
-    answers = screening_basis(structure, airframe.basis, nodes, maps, cuts)
-=======
-    rows, cuts = stress_rows(watch.stresses), watch.cuts
     answers = screening_basis(
-        structure, airframe.basis, nodes, rows, cuts, watch.stations
+        structure, airframe.basis, nodes, maps, cuts, watch.stations
     )
->>>>>>> a89bf9b (Monitor points in campaigns: extremes and hulls of all pairs; static equilibrium of them tested)
     setup = LandingSetup(
         body=airframe.body,
         node_id=nodes,
