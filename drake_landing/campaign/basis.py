@@ -125,12 +125,7 @@ def _monitor(
     station: Station,
 ) -> Float64:
     """(q, n + 6 k), likewise; elastic forces by the displacements of the columns."""
-    if station.of_displacement is not None:
-        moved = np.asarray(station.of_displacement @ columns).T
-    else:
-        moved = np.asarray(
-            station.of_acceleration @ _motion(structure, basis, pattern)
-        ).T
+    moved = station.moved(columns, _motion(structure, basis, pattern))
     return station.values(moved, _unit_loads(basis, node_id)).T
 
 

@@ -39,6 +39,13 @@ class Station:
         """Of its axes: F1 ... M3."""
         return [NAMES[a] for a in self.point.axes]
 
+    def moved(self, displacement: Float64, acceleration: Float64) -> Float64:
+        """(c, 6) what its map makes of load cases (f, c), see `values`."""
+        if self.of_acceleration is not None:
+            return np.asarray(self.of_acceleration @ acceleration).T
+        assert self.of_displacement is not None
+        return np.asarray(self.of_displacement @ displacement).T
+
     def values(self, moved: Float64, load: Float64) -> Float64:
         """(t, q) loads along the axes of the point.
 

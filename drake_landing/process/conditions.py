@@ -392,13 +392,10 @@ def _monitors(watch: PartsWatch, answers: _Answers) -> pd.DataFrame:
     """Extremes at the deck's monitor points over all cases, without steady flight."""
     motion, numbers = answers.motion(), np.arange(1, answers.count + 1)
     strained = answers.held.displacement @ answers.split
-    values = {}
-    for s in watch.stations:
-        if s.of_acceleration is not None:
-            moved = np.asarray(s.of_acceleration @ motion).T
-        else:
-            moved = np.asarray(s.of_displacement @ strained).T
-        values[s.name] = s.values(moved, answers.node_loads)
+    values = {
+        s.name: s.values(s.moved(strained, motion), answers.node_loads)
+        for s in watch.stations
+    }
     table = monitor_envelopes(watch.stations, numbers, values)
     return table.rename(
         columns={"time_of_min": "case_of_min", "time_of_max": "case_of_max"}
