@@ -90,15 +90,24 @@ class Aircraft:
         return lift.nodes if isinstance(lift, Lift) else ()
 
     @property
+    def further_lift_nodes(self) -> dict[int, str]:
+        """Grids of tail and engines that carry loads -> field of the case."""
+        lift = self.scenario.lift
+        found = lift.further_nodes if isinstance(lift, Lift) else {}
+        return {node: f"scenario.lift.{field}" for node, field in found.items()}
+
+    @property
     def multibody_nodes(self) -> list[int]:
         """Grids that the multibody model knows, ascending."""
         monitored = self.monitoring.values()
-        return sorted({*monitored, *self.attachment_nodes, *self.lift_nodes})
+        others = self.further_lift_nodes
+        return sorted({*monitored, *self.attachment_nodes, *self.lift_nodes, *others})
 
     @property
     def nodes(self) -> dict[int, str]:
         """Grids that must exist -> field of the case that names them."""
         wanted = dict.fromkeys(self.lift_nodes, "scenario.lift.nodes")
+        wanted |= self.further_lift_nodes
         for name, grid in self.monitoring.items():
             wanted[grid] = f"airframe.monitoring.{name}"
         for gear in self.gears:

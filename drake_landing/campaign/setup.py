@@ -153,7 +153,8 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
             Cache.of_user(),
             structure,
         )
-    nodes = np.unique([*aircraft.attachment_nodes, *aircraft.lift_nodes])
+    lifting = (*aircraft.lift_nodes, *aircraft.further_lift_nodes)
+    nodes = np.unique([*aircraft.attachment_nodes, *lifting])
     progress.stage(f"{aircraft.name}: static answers, stress modes, section loads")
     steady = None
     if aircraft.steady_load is not None:

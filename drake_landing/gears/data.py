@@ -15,9 +15,18 @@ A gear is held by the airframe at one node or at several, see `further_attachmen
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import Discriminator, Field, Tag, TypeAdapter, model_validator
+from pydantic import (
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    TypeAdapter,
+    ValidationInfo,
+    model_validator,
+)
 
 from drake_landing.gears.legs import Leg, require_over_stroke
+from drake_landing.gears.model_file import FIELDS, ModelFile, with_bodies
 from drake_landing.gears.parts import (
     Brake,
     Data,
@@ -218,12 +227,24 @@ class LandingGear(Data):
         return self.sprung_mass + parts + len(self.wheel_names) * self.wheel.mass
 
 
+def _bodies_or_their_fields(schema: dict[str, Any]) -> None:
+    """A model file brings some of the fields with it."""
+    schema["required"] = [name for name in schema["required"] if name not in FIELDS]
+    schema["anyOf"] = [{"required": ["bodies"]}, {"required": list(FIELDS)}]
+
+
 class TelescopicGear(LandingGear):
     """A piston with one axle that slides in the fitting."""
 
     positions: ClassVar[tuple[str, ...]] = ("axle",)
 
+    model_config = ConfigDict(json_schema_extra=_bodies_or_their_fields)
+
     kind: Literal["telescopic"] = "telescopic"
+    bodies: ModelFile | None = Field(
+        default=None,
+        description=f"a model file in place of {', '.join(FIELDS)}; default none",
+    )
     axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
     rake_deg: float = Field(
         default=0.0,
@@ -233,6 +254,13 @@ class TelescopicGear(LandingGear):
         "positive: the lower end lies further forward",
     )
     piston: RigidPart = Field(description="piston, axle, brake stators; no wheels")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _read_bodies(cls, data: Any, info: ValidationInfo) -> Any:
+        if not isinstance(data, dict) or data.get("bodies") is None:
+            return data
+        return with_bodies(data, info.context)
 
     @property
     def axles(self) -> tuple[Vector3, ...]:

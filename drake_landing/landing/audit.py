@@ -11,7 +11,7 @@ from scipy.interpolate import Akima1DInterpolator
 from drake_landing.case.scenario import Scenario
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import distinct_instants
-from drake_landing.landing.lift import aircraft_mass_center
+from drake_landing.landing.lift import AFT, aircraft_mass_center
 from drake_landing.landing.start import reference_energy
 
 Float64 = npt.NDArray[np.float64]
@@ -116,6 +116,8 @@ def _momentum_error(
     forces = sum(signals[f"tire_{wheel}.wrench"][3:] for wheel in landing.tires)
     if landing.lift is not None:
         forces = forces + np.outer([0.0, 0.0, 1.0], signals["lift.force"][0])
+    if landing.reverse_thrust is not None:
+        forces = forces + np.outer(AFT, signals["reverse_thrust.force"][0])
     forces[2] -= mass * landing.gravity
     impulse = Akima1DInterpolator(signals.time, forces, axis=1).integrate(
         signals.time[0], signals.time[-1]

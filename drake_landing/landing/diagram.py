@@ -7,18 +7,20 @@
 
 Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_forces`,
 `tire_<wheel>`, `shock_absorber_<gear>` and `energy_budget`; where there are such,
-`brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>`, `elastic_legs` and `lift`.
+`brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>`, `elastic_legs`, `lift` and
+`reverse_thrust`.
 """
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from pydrake.math import RigidTransform
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import Diagram, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import Adder, LogVectorOutput, VectorLogSink
 
-from drake_landing.gears.bodies import AddLandingGear, GearBodies
+from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.holds import (
     attachment_places,
@@ -30,10 +32,13 @@ from drake_landing.landing.lift import AddLift, Lift
 from systems.airframe.distributed_load import DistributedLoad
 from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
+from systems.airframe.quasi_steady_lift import QuasiSteadyLift
 from systems.attachment.attachment import Attachment, RigidAttachment
 from systems.attachment.bushing_attachment import BushingAttachment
 from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
+
+_OFF_GROUND = 1.0  # m
 
 _LOGGED = {
     "airframe": ("pose", "modal_amplitudes", "monitor_acceleration", "energy"),
@@ -45,7 +50,8 @@ _LOGGED = {
     "brake": ("torque",),
     "pitch_damper": ("torque", "energy"),
     "elastic_legs": ("energy",),
-    "lift": ("force",),
+    "lift": ("force", "node_force"),
+    "reverse_thrust": ("force", "node_force"),
 }
 
 
@@ -77,6 +83,7 @@ class LandingDiagram:
         elastic_legs: of all gears that bend; None where none does.
         bodies: bodies and joints, by gear.
         lift: None where lift equals weight and neither acts.
+        reverse_thrust: None where there is none.
         energy_budget: None where not asked for.
         loggers: by "<system>.<port>", one sample per integration step; stroke and rate
             of a gear as "strut_<gear>.strut", what a leg bends as
@@ -96,7 +103,8 @@ class LandingDiagram:
     pitch_dampers: dict[str, Any] = field(repr=False)
     elastic_legs: Any = field(repr=False)
     bodies: dict[str, GearBodies] = field(repr=False)
-    lift: DistributedLoad | None = field(repr=False)
+    lift: DistributedLoad | QuasiSteadyLift | None = field(repr=False)
+    reverse_thrust: DistributedLoad | None = field(repr=False)
     energy_budget: Any = field(repr=False)
     loggers: dict[str, VectorLogSink] = field(repr=False)
     body: ModalBody = field(repr=False)
@@ -158,8 +166,13 @@ def MakeLandingDiagram(
     plant.Finalize()
 
     nodes = [node for gear in gears for node in gear.attachments.values()]
+    height = _default_height(body, gears)
+    for gear in gears:
+        p_WA = places[gear.name] - body.p_BG + [0.0, 0.0, height]
+        fitting = bodies[gear.name].fitting
+        plant.SetDefaultFloatingBaseBodyPose(fitting, RigidTransform(p_WA))
     airframe = builder.AddNamedSystem(
-        "airframe", FlexibleAirframe(body, nodes, monitor_nodes, gravity)
+        "airframe", FlexibleAirframe(body, nodes, monitor_nodes, gravity, height)
     )
     points = attachment_points(gears, bodies, places)
     held: Attachment = (
@@ -174,13 +187,13 @@ def MakeLandingDiagram(
         builder, plant, gears, bodies, runway, brakes, connect_plant=False
     )
     _connect_attachment(builder, plant, airframe, held, parts.gear_forces)
-    carrying = None
+    carrying, thrust = None, None
     if lift is None:
         builder.ExportInput(airframe.GetInputPort("external_load"), "external_load")
     elif not gravity > 0:
         raise ValueError(f"landing diagram: lift with gravity {gravity} m/s²")
     else:
-        carrying = AddLift(builder, airframe, body, gears, lift, gravity)
+        carrying, thrust = AddLift(builder, airframe, body, gears, lift, gravity)
     systems: dict[str, Any] = {
         "plant": plant,
         "airframe": airframe,
@@ -189,6 +202,8 @@ def MakeLandingDiagram(
     systems |= parts.by_name
     if carrying is not None:
         systems["lift"] = carrying
+    if thrust is not None:
+        systems["reverse_thrust"] = thrust
     budget = None
     if energy_budget:
         others = [system for name, system in systems.items() if name != "plant"]
@@ -211,6 +226,7 @@ def MakeLandingDiagram(
         elastic_legs=parts.elastic_legs,
         bodies=bodies,
         lift=carrying,
+        reverse_thrust=thrust,
         energy_budget=budget,
         loggers=loggers,
         body=body,
@@ -218,6 +234,18 @@ def MakeLandingDiagram(
         runway=runway,
         gravity=gravity,
     )
+
+
+def _default_height(body: ModalBody, gears: Sequence[LandingGear]) -> float:
+    """Height of the centre of gravity in a default context, m: tyres are off an even
+    runway by `_OFF_GROUND`.
+    """
+    lowest = min(
+        centre[2] - gear.tyre_of(wheel).radius
+        for gear in gears
+        for wheel, centre in wheel_centres(gear).items()
+    )
+    return float(body.p_BG[2] - lowest) + _OFF_GROUND
 
 
 def _connect_attachment(

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 from pydrake.systems.framework import DiagramBuilder
+from pydrake.systems.primitives import Adder
 
 from drake_landing.gears.bodies import mass_points
 from drake_landing.gears.data import LandingGear
@@ -16,6 +17,7 @@ from drake_landing.gears.mass_center import mass_center
 from systems.airframe.distributed_load import DistributedLoad, trimmed_shares
 from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
+from systems.airframe.quasi_steady_lift import QuasiSteadyLift, Surface
 from systems.tools.checks import require
 from systems.tools.table import Table
 
@@ -23,6 +25,31 @@ Float64 = npt.NDArray[np.float64]
 
 STANDARD_GRAVITY = 9.80665
 """m/s²"""
+
+AFT = (1.0, 0.0, 0.0)
+"""Along the runway, W."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Motion:
+    """How lift follows the motion, see `QuasiSteadyLift`.
+
+    Attributes:
+        area: of the wing, m².
+        slope: lift coefficient over angle of attack, 1/rad.
+        density: of the air, kg/m³.
+        pitch_damping: N m s/rad.
+        tail: a further surface.
+        downwash, lag: at the tail; 1, s.
+    """
+
+    area: float
+    slope: float
+    density: float = 1.225
+    pitch_damping: float = 0.0
+    tail: Surface | None = None
+    downwash: float = 0.0
+    lag: float = 0.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,6 +61,8 @@ class Lift:
             gravity, which they must surround.
         factor: lift over weight, constant or a table over time (s), e.g. `decaying`.
         shares: of each node before the trim; default equal.
+        motion: how it follows the motion; default not at all.
+        reverse_thrust: grids of the engines, and their force aft (N) over time (s).
 
     Raises:
         ValueError: a value is out of range.
@@ -42,6 +71,8 @@ class Lift:
     nodes: Sequence[int]
     factor: float | Table = 1.0
     shares: Sequence[float] | None = None
+    motion: Motion | None = None
+    reverse_thrust: tuple[Sequence[int], Table] | None = None
 
     def __post_init__(self) -> None:
         if not len(self.nodes):
@@ -86,8 +117,8 @@ def AddLift(
     gears: Sequence[LandingGear],
     lift: Lift,
     gravity: float,
-) -> DistributedLoad:
-    """Adds the system `lift` and connects it to the airframe's `external_load`.
+) -> tuple[DistributedLoad | QuasiSteadyLift, DistributedLoad | None]:
+    """Adds the systems `lift` and `reverse_thrust`, for the airframe's `external_load`.
 
     Args:
         builder: that already holds the airframe.
@@ -108,11 +139,41 @@ def AddLift(
         force = Table(lift.factor.x, [weight * y for y in lift.factor.y])
     else:
         force = weight * lift.factor
-    system = DistributedLoad(body, lift.nodes, shares, force)
+    motion = lift.motion
+    if motion is None:
+        system = DistributedLoad(body, lift.nodes, shares, force)
+    else:
+        wing = Surface(
+            nodes=lift.nodes, shares=shares, area=motion.area, slope=motion.slope
+        )
+        system = QuasiSteadyLift(
+            body,
+            force,
+            wing,
+            motion.tail,
+            downwash=motion.downwash,
+            lag=motion.lag,
+            pitch_damping=motion.pitch_damping,
+            density=motion.density,
+        )
     builder.AddNamedSystem("lift", system)
-    for port in ("pose", "modal_amplitudes"):
-        source = airframe.GetOutputPort(port)
-        builder.Connect(source, system.GetInputPort(port))
-    load = system.GetOutputPort("load")
-    builder.Connect(load, airframe.GetInputPort("external_load"))
-    return system
+    thrust = None
+    if lift.reverse_thrust is not None:
+        engines, table = lift.reverse_thrust
+        equal = np.full(len(engines), 1.0 / len(engines))
+        thrust = DistributedLoad(body, engines, equal, table, AFT)
+        builder.AddNamedSystem("reverse_thrust", thrust)
+    loads = [load for load in (system, thrust) if load is not None]
+    for load in loads:
+        for i in range(load.num_input_ports()):
+            target = load.get_input_port(i)
+            builder.Connect(airframe.GetOutputPort(target.get_name()), target)
+    target = airframe.GetInputPort("external_load")
+    if thrust is None:
+        builder.Connect(system.GetOutputPort("load"), target)
+    else:
+        both = builder.AddNamedSystem("external_forces", Adder(2, target.size()))
+        for i, load in enumerate(loads):
+            builder.Connect(load.GetOutputPort("load"), both.get_input_port(i))
+        builder.Connect(both.get_output_port(), target)
+    return system, thrust

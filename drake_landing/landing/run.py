@@ -27,6 +27,7 @@ from drake_landing.landing.history import (
     TYRE,
     LandingHistory,
 )
+from drake_landing.landing.lift import AFT
 from drake_landing.landing.settling import LIMIT, Settling, has_settled, swing_of
 from drake_landing.landing.stall import StallWatch
 from drake_landing.landing.start import (
@@ -330,18 +331,25 @@ def _body_poses(landing: LandingDiagram, states: Float64) -> dict[str, Float64]:
 
 
 def _lift_change(landing: LandingDiagram, signal, R_AB: Float64) -> dict[int, Float64]:
-    """Grid -> (t, 3) force that the lift there has gained since the start, B."""
+    """Grid -> (t, 3) force that lift and reverse thrust have gained there, B."""
     if landing.lift is None:
         return {}
-    force = signal("lift.force")
-    change = force - force[0]
-    if not change.any():
-        return {}
-    up_A = np.array(
-        [rotation_from_quaternion(q)[2] for q in signal("airframe.pose")[:, :4]]
-    )
-    in_B = change * up_A @ R_AB
-    return {n: w * in_B for n, w in zip(landing.lift.nodes, landing.lift.shares)}
+    turns = [rotation_from_quaternion(q) for q in signal("airframe.pose")[:, :4]]
+    found: dict[int, Float64] = {}
+    for name, load, direction in (
+        ("lift", landing.lift, (0.0, 0.0, 1.0)),
+        ("reverse_thrust", landing.reverse_thrust, AFT),
+    ):
+        if load is None:
+            continue
+        force = signal(f"{name}.node_force")
+        change = force - force[0]
+        if not change.any():
+            continue
+        in_B = np.array([np.array(direction) @ R_WA for R_WA in turns]) @ R_AB
+        for i, node in enumerate(load.nodes):
+            found[node] = found.get(node, 0.0) + change[:, i, None] * in_B
+    return found
 
 
 def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:

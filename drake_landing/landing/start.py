@@ -10,8 +10,10 @@ from pydrake.systems.framework import Context
 from drake_landing.case.scenario import (
     AnyProfile,
     Bump,
+    Following,
     Measured,
     Ramp,
+    ReverseThrust,
     Roughness,
     RunwaySection,
     Scenario,
@@ -30,9 +32,10 @@ from drake_landing.landing.initial_state import (
     attitude,
     set_initial_state,
 )
-from drake_landing.landing.lift import STANDARD_GRAVITY, Lift, decaying
+from drake_landing.landing.lift import STANDARD_GRAVITY, Lift, Motion, decaying
 from fem.errors import InputError
 from systems.airframe.modal_body import ModalBody
+from systems.airframe.quasi_steady_lift import QuasiSteadyLift, Surface
 from systems.runway.roughness import rough_tracks
 from systems.runway.runway import Runway
 from systems.runway.runway_profile import (
@@ -41,6 +44,7 @@ from systems.runway.runway_profile import (
     Step,
     Waves,
 )
+from systems.tools.table import Table
 
 Float64 = npt.NDArray[np.float64]
 
@@ -115,6 +119,8 @@ def set_scenario_state(
         )
         if s.gravity and not any(turning):
             set_flight_equilibrium(landing, context)
+    if isinstance(landing.lift, QuasiSteadyLift) and s.forward_speed > 0:
+        landing.lift.set_reference(landing.lift.GetMyMutableContextFromRoot(context))
     for brake in landing.brakes.values():
         brake.set_factor(brake.GetMyMutableContextFromRoot(context), s.braking)
 
@@ -136,7 +142,29 @@ def _lift(section: LiftSection) -> Lift:
             duration=section.decay_duration,
             remaining=section.remaining,
         )
-    return Lift(nodes=section.nodes, factor=factor, shares=section.shares)
+    return Lift(
+        nodes=section.nodes,
+        factor=factor,
+        shares=section.shares,
+        motion=section.follows and _motion(section.follows),
+        reverse_thrust=_reverse_thrust(section.reverse_thrust),
+    )
+
+
+def _motion(section: Following) -> Motion:
+    data = section.model_dump(exclude={"tail"})
+    tail = section.tail
+    if tail is None:
+        return Motion(**data)
+    equal = [1.0 / len(tail.nodes)] * len(tail.nodes)
+    surface = Surface(nodes=tail.nodes, shares=equal, area=tail.area, slope=tail.slope)
+    return Motion(**data, tail=surface, downwash=tail.downwash, lag=tail.lag)
+
+
+def _reverse_thrust(section: ReverseThrust | None):
+    if section is None:
+        return None
+    return section.nodes, Table(*zip(*section.table))
 
 
 def runway_of(section: RunwaySection, origin: tuple[float, float] = (0, 0)) -> Runway:

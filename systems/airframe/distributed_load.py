@@ -93,6 +93,7 @@ class DistributedLoad(LeafSystem):
     | in `modal_amplitudes` | n | | in the amplitudes of the ModalBody |
     | out `load` | 6 + n | N, N m | force W, moment about G in B, modal forces |
     | out `force` | 1 | N | L(t) |
+    | out `node_force` | k | N | of each node, in its direction |
 
     No state. Numeric parameter: factor on the force, 1.
 
@@ -149,6 +150,7 @@ class DistributedLoad(LeafSystem):
         vector = self.DeclareVectorOutputPort
         vector("load", 6 + body.n, self._calc_load, now | state)
         vector("force", 1, self._calc_force, now)
+        vector("node_force", len(w), self._calc_node_force, now)
 
     def set_factor(self, context: Context, factor: float) -> None:
         """Sets the factor on the force in a context of this system."""
@@ -163,6 +165,9 @@ class DistributedLoad(LeafSystem):
 
     def _calc_force(self, context, output) -> None:
         output.SetAtIndex(0, self._now.Eval(context))
+
+    def _calc_node_force(self, context, output) -> None:
+        output.SetFromVector(self._now.Eval(context) * np.array(self.shares))
 
     def _calc_load(self, context, output) -> None:
         R_WB = rotation_from_quaternion(self._pose.Eval(context)[:4])

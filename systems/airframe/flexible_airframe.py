@@ -58,7 +58,9 @@ class FlexibleAirframe(LeafSystem):
     | out `monitor_acceleration` | 6 k_m | m/s², rad/s² | [linear; angular] relative to
       inertial space, in B axes |
     | out `pose` | 7 | -, m | quaternion of R_WB, p_WG |
+    | out `velocity` | 6 | rad/s, m/s | ω_B in B, v_WG in W |
     | out `modal_amplitudes` | n | | in the amplitudes of the ModalBody |
+    | out `modal_rates` | n | 1/s | likewise |
     | out `energy` | 1 | J | kinetic, strain and gravity |
     | out `dissipated_power` | 1 | W | of the modes, >= 0 |
     | out `external_power` | 1 | W | of external_load, into the airframe |
@@ -72,6 +74,7 @@ class FlexibleAirframe(LeafSystem):
         monitor_nodes: grid ids to watch.
         gravity: acceleration, m/s²; numeric parameter. 0, the default, stands for lift
             equal to weight.
+        height: of the centre of gravity in the default state, m.
 
     Raises:
         ValueError: a node is not one of the body's.
@@ -83,6 +86,7 @@ class FlexibleAirframe(LeafSystem):
         attachment_nodes: Sequence[int],
         monitor_nodes: Sequence[int] = (),
         gravity: float = 0.0,
+        height: float = 0.0,
     ) -> None:
         super().__init__()
         self.n = n = body.n
@@ -98,7 +102,7 @@ class FlexibleAirframe(LeafSystem):
         self._inverse_mass[3:, 3:] = np.linalg.inv(body.inertia_G)
 
         x0 = np.zeros(13 + 2 * n)
-        x0[3] = 1.0
+        x0[2], x0[3] = height, 1.0
         self.DeclareContinuousState(BasicVector(x0))
         self._gravity = NumericParameterIndex(
             self.DeclareNumericParameter(BasicVector([gravity]))
@@ -160,6 +164,8 @@ class FlexibleAirframe(LeafSystem):
         state = {self.xc_ticket()}
         declare = self.DeclareVectorOutputPort
         declare("pose", 7, self._calc_pose, state)
+        declare("velocity", 6, self._calc_velocity, state)
+        declare("modal_rates", self.n, self._calc_modal_rates, state)
         declare("modal_amplitudes", self.n, self._calc_modal_amplitudes, state)
         declare("dissipated_power", 1, self._calc_dissipated_power, state)
         external = state | {self._external.ticket()}
@@ -284,6 +290,14 @@ class FlexibleAirframe(LeafSystem):
         x = context.get_continuous_state_vector().CopyToVector()
         q = x[3:7]
         output.SetFromVector(np.concatenate([q / np.sqrt(q @ q), x[:3]]))
+
+    def _calc_velocity(self, context, output) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        output.SetFromVector(np.concatenate([x[10:13], x[7:10]]))
+
+    def _calc_modal_rates(self, context, output) -> None:
+        x = context.get_continuous_state_vector().CopyToVector()
+        output.SetFromVector(self._scale * x[13 + self.n :])
 
     def _calc_modal_amplitudes(self, context, output) -> None:
         x = context.get_continuous_state_vector().CopyToVector()

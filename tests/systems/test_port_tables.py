@@ -13,6 +13,7 @@ import systems
 from systems.airframe.distributed_load import DistributedLoad
 from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_recovery import ModalRecovery
+from systems.airframe.quasi_steady_lift import QuasiSteadyLift, Surface
 from systems.attachment.attachment import Attachment, RigidAttachment
 from systems.attachment.bushing_attachment import BushingAttachment
 from systems.gear.bogie_pitch import BogiePitch, BogiePitchParameters
@@ -55,6 +56,7 @@ SIZES = {
     "nv": PLANT.num_velocities(),
     "6 k nv": 12 * PLANT.num_velocities(),
     "n": 4,
+    "k": 1,
     "6 + n": 10,
     **{f"{factor} {k}": 2 * factor for factor in (6, 12) for k in ("k", "k_a", "k_m")},
     **{f"(6 {k})²": 144 for k in ("k", "k_a")},
@@ -77,6 +79,9 @@ SYSTEMS = {
     RigidAttachment: lambda: RigidAttachment(PLANT, list(FITTINGS.values())),
     BushingAttachment: lambda: BushingAttachment(PLANT, list(FITTINGS.values())),
     DistributedLoad: lambda: DistributedLoad(BODY, [LEFT_GEAR], [1.0], 1e3),
+    QuasiSteadyLift: lambda: QuasiSteadyLift(
+        BODY, 1e3, Surface(nodes=[LEFT_GEAR], shares=[1.0], area=1.0, slope=5.0)
+    ),
     ModalRecovery: lambda: ModalRecovery(np.ones((3, 4))),
     EnergyBudget: lambda: EnergyBudget(PLANT, ["a"], ["a"], ["a"]),
 }
