@@ -80,106 +80,73 @@ CURVED_RESULTS = tuple(
     for result in SHELL_RESULTS
 )
 
+_OWNER = "eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID "
+_QUAD = (
+    f"{_OWNER}g4:i>GRID theta:u=0. zoffs:f=0.[L] - tflag:i=0 "
+    "t1:f=nan t2:f=nan t3:f=nan t4:f=nan"
+)
+_TRIA = f"{_OWNER}theta:u=0. zoffs:f=0.[L] - - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan"
+
+
+def _shell(
+    name: str,
+    fields: str,
+    reader: str,
+    topology: Topology,
+    op2: Op2,
+    results: tuple[Result, ...] = SHELL_RESULTS,
+) -> Card:
+    """Thicknesses at corners are NaN where the property gives them; mcid -1: none."""
+    return Card(
+        name=name,
+        group=_GROUP,
+        fields=fields,
+        finish=finish.shell,
+        more="mcid:i>CORD",
+        ids="own",
+        convert=conversions.corners,
+        element=Element(
+            reader=f"shells.{reader}", topology=topology, op2=op2, results=results
+        ),
+    )
+
+
+def _op2(**types: int) -> Op2:
+    """Numbers of the tables of an element, in the layout of plates."""
+    return Op2(**types, force="plate", stress="plate")
+
+
 RECORDS = (
-    # t: thickness at the corners (NaN: from the property); mcid -1: none
-    Card(
-        name="CQUAD4",
-        group=_GROUP,
-        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID g4:i>GRID "
-        "theta:u=0. zoffs:f=0.[L] - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan t4:f=nan",
-        finish=finish.shell,
-        more="mcid:i>CORD",
-        ids="own",
-        convert=conversions.corners,
-        element=Element(
-            reader="shells.quad4:read_cquad4",
-            topology=QUAD,
-            op2=Op2(type=33, corners=144, plies=95, force="plate", stress="plate"),
-            results=SHELL_RESULTS,
-        ),
+    _shell(
+        "CQUAD4", _QUAD, "quad4:read_cquad4", QUAD, _op2(type=33, corners=144, plies=95)
     ),
-    Card(
-        name="CTRIA3",
-        group=_GROUP,
-        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID theta:u=0. "
-        "zoffs:f=0.[L] - - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan",
-        finish=finish.shell,
-        more="mcid:i>CORD",
-        ids="own",
-        convert=conversions.corners,
-        element=Element(
-            reader="shells.tria3:read_ctria3",
-            topology=TRIA,
-            op2=Op2(type=74, plies=97, force="plate", stress="plate"),
-            results=SHELL_RESULTS,
-        ),
-    ),
+    _shell("CTRIA3", _TRIA, "tria3:read_ctria3", TRIA, _op2(type=74, plies=97)),
     # Their rotations about the normal are true freedoms.
-    Card(
-        name="CQUADR",
-        group=_GROUP,
-        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID g4:i>GRID "
-        "theta:u=0. zoffs:f=0.[L] - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan t4:f=nan",
-        finish=finish.shell,
-        more="mcid:i>CORD",
-        ids="own",
-        convert=conversions.corners,
-        element=Element(
-            reader="shells.quad4:read_cquadr",
-            topology=QUAD,
-            op2=Op2(type=228, corners=82, plies=232, force="plate", stress="plate"),
-            results=SHELL_RESULTS,
-        ),
+    _shell(
+        "CQUADR",
+        _QUAD,
+        "quad4:read_cquadr",
+        QUAD,
+        _op2(type=228, corners=82, plies=232),
     ),
-    Card(
-        name="CTRIAR",
-        group=_GROUP,
-        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID theta:u=0. "
-        "zoffs:f=0.[L] - - tflag:i=0 t1:f=nan t2:f=nan t3:f=nan",
-        finish=finish.shell,
-        more="mcid:i>CORD",
-        ids="own",
-        convert=conversions.corners,
-        element=Element(
-            reader="shells.tria3:read_ctriar",
-            topology=TRIA,
-            op2=Op2(type=227, plies=233, force="plate", stress="plate"),
-            results=SHELL_RESULTS,
-        ),
+    _shell("CTRIAR", _TRIA, "tria3:read_ctriar", TRIA, _op2(type=227, plies=233)),
+    _shell(
+        "CQUAD8",
+        f"{_OWNER}g4:i>GRID g5:i=0>GRID? g6:i=0>GRID? g7:i=0>GRID? g8:i=0>GRID? "
+        "t1:f=nan t2:f=nan t3:f=nan t4:f=nan theta:u=0. zoffs:f=0.[L] tflag:i=0",
+        "curved_reader:read_cquad8",
+        QUAD8,
+        _op2(type=64, plies=96),
+        CURVED_RESULTS,
     ),
-    Card(
-        name="CQUAD8",
-        group=_GROUP,
-        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID g4:i>GRID "
-        "g5:i=0>GRID? g6:i=0>GRID? g7:i=0>GRID? g8:i=0>GRID? t1:f=nan t2:f=nan "
-        "t3:f=nan t4:f=nan theta:u=0. zoffs:f=0.[L] tflag:i=0",
-        finish=finish.shell,
-        more="mcid:i>CORD",
-        ids="own",
-        convert=conversions.corners,
-        element=Element(
-            reader="shells.curved_reader:read_cquad8",
-            topology=QUAD8,
-            op2=Op2(type=64, plies=96, force="plate", stress="plate"),
-            results=CURVED_RESULTS,
-        ),
-    ),
-    Card(
-        name="CTRIA6",
-        group=_GROUP,
-        fields="eid:i pid:i=eid>PSHELL|PCOMP g1:i>GRID g2:i>GRID g3:i>GRID "
-        "g4:i=0>GRID? g5:i=0>GRID? g6:i=0>GRID? theta:u=0. zoffs:f=0.[L] t1:f=nan "
-        "t2:f=nan t3:f=nan tflag:i=0",
-        finish=finish.shell,
-        more="mcid:i>CORD",
-        ids="own",
-        convert=conversions.corners,
-        element=Element(
-            reader="shells.curved_reader:read_ctria6",
-            topology=TRIA6,
-            op2=Op2(type=75, plies=98, force="plate", stress="plate"),
-            results=CURVED_RESULTS,
-        ),
+    _shell(
+        "CTRIA6",
+        f"{_OWNER}g4:i=0>GRID? g5:i=0>GRID? g6:i=0>GRID? theta:u=0. zoffs:f=0.[L] "
+        "t1:f=nan t2:f=nan t3:f=nan tflag:i=0",
+        "curved_reader:read_ctria6",
+        TRIA6,
+        _op2(type=75, plies=98),
+        CURVED_RESULTS,
     ),
     Card(
         name="CSHEAR",
