@@ -106,12 +106,12 @@ def conditions() -> Iterator[str]:
 
 
 def _values(preset: Preset) -> str:
-    units = {"sink_rate": "m/s", "forward_speed": "m/s"}
+    units = {"sink_rate": "m/s", "forward_speed": "m/s", "pitch_rate": "°/s"}
     parts = []
     for name, value in preset.values.items():
-        if isinstance(value, dict):  # the profile of a runway
-            profile = value["profile"]
-            value = ", ".join(f"{k} {v}" for k, v in profile.items())
+        if isinstance(value, dict):  # the profile of a runway, or lift that falls
+            inner = value.get("profile", value)
+            value = ", ".join(f"{k} {v}" for k, v in inner.items())
         elif isinstance(value, float):
             unit = units.get(name, "°" if name in ("pitch", "roll", "yaw") else "")
             value = f"{value:g} {unit}".strip().replace(" °", "°")
@@ -242,7 +242,7 @@ def rules(paragraphs: Sequence[Paragraph]) -> Iterator[str]:
     yield "| § | condition | the rule | the program | text |"
     yield "|---|---|---|---|---|"
     for p in paragraphs:
-        yield f"| {p.number} | {p.title} | {p.rule} | {p.does} | {p.mark} |"
+        yield f"| {p.number} | {p.title} | {p.rule} | {p.does} | {p.text} |"
 
 
 def main() -> None:

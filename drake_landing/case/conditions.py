@@ -28,7 +28,14 @@ class Conditions(Section):
         "default the rule's: 3.048 at the landing, 1.8288 at the take-off weight; "
         "CS-23 4.4 (W/S)^1/4 ft/s",
     )
-    forward_speed: float = number("of these landings", "m/s", 67.0, gt=0, le=150)
+    forward_speed: float = number(
+        "of these landings; with stall_speed they are flown at V_L1 and 1.25 V_L2 "
+        "(tail-down V_L2) instead",
+        "m/s",
+        67.0,
+        gt=0,
+        le=150,
+    )
     level_pitch: float = number(
         "of the landing on main wheels", "deg", 2.0, ge=-20, le=30
     )
@@ -59,5 +66,9 @@ class Conditions(Section):
         default=None,
         gt=0,
         le=150,
-        description="V_S0 in the landing, m/s, for spin-up by Appendix D of CS-23",
+        description="V_S0 in the landing, m/s: V_L1, V_L2 of CS-25, spin-up by "
+        "Appendix D of CS-23",
+    )
+    altitude: float = number(
+        "of the highest airfield, for V_L2 at ISA + 22.8 K", "m", 0.0, ge=0, le=6000
     )

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
@@ -40,6 +40,11 @@ class MassCase(Section):
         default=(), description="CONM2 ids, or [first, last], that are left out"
     )
     scale: tuple[Scaled, ...] = Field(default=(), description="masses scaled")
+    design: Literal["landing", "take_off"] | None = Field(
+        default=None,
+        description="which design weight this is: sets conditions.weight and the sink "
+        "rate of presets (10 or 6 ft/s), where they are not given",
+    )
     mass: float | None = Field(
         default=None,
         gt=0,

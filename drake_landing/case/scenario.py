@@ -377,6 +377,11 @@ class Scenario(Section):
         "share of the gears' brake torques that is applied", "1", 0.0, ge=0, le=2
     )
     runway: RunwaySection = Field(default=RunwaySection(), description="the ground")
+    one_gear: Literal["starboard", "port"] | None = Field(
+        default=None,
+        description="25.483: the airframe gets the loads of the gear on that side "
+        "alone, as this landing has made them; inertia reacts what is unbalanced",
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -390,6 +395,15 @@ class Scenario(Section):
         if filled.get("start") == "rolling" or unknown:
             filled.setdefault("sink_rate", LANDING_SINK_RATE)
         return filled
+
+    @model_validator(mode="after")
+    def _one_gear(self) -> Self:
+        if self.one_gear and (self.lift != "weight" or self.start != "touchdown"):
+            raise ValueError(
+                "one_gear: found it with lift or an aircraft that rolls, expected a "
+                "touchdown with lift: weight"
+            )
+        return self
 
     @model_validator(mode="after")
     def _rolling(self) -> Self:
@@ -413,6 +427,18 @@ class Scenario(Section):
     @property
     def remarks(self) -> tuple[str, ...]:
         """What is odd; begins with the field."""
+        if self.one_gear:
+            return (
+                "scenario.one_gear: tables of gears, tires and energies are those of "
+                "the landing on all gears; attachment loads, accelerations and what "
+                f"the full model answers are those of the {self.one_gear} gear alone, "
+                "with the inertia of the airframe without gears",
+                *self._fast,
+            )
+        return self._fast
+
+    @property
+    def _fast(self) -> tuple[str, ...]:
         if self.start != "touchdown" or self.sink_rate <= _RESERVE_SINK_RATE:
             return ()
         return (
@@ -450,6 +476,7 @@ class Scenario(Section):
         parts += [f"profile: {profile.kind}"] if profile else []
         parts += [f"crown {100 * self.runway.crown:g} %"] * (self.runway.crown > 0)
         parts += ["brakes applied"] * (self.braking > 0)
+        parts += [f"loads of the {self.one_gear} gear alone"] * bool(self.one_gear)
         parts += ["preset " + self.preset] if self.preset else []
         return ", ".join(parts)
 

@@ -26,8 +26,10 @@ from pydantic import (
 )
 
 from drake_landing.case.bushing import Bushing
+from drake_landing.case.chord import Chord
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
+from drake_landing.case.design_values import with_design_values
 from drake_landing.case.labels import Label
 from drake_landing.case.mass_cases import MassCase, mass_case_of
 from drake_landing.case.parts import Parts
@@ -240,6 +242,10 @@ class Airframe(Section):
         "its BEGIN MASSID sections or as MASSSET 11; default the deck as it is. In a "
         "campaign an axis like others: airframe.mass_case: [full, empty]",
     )
+    mac: Chord | None = Field(
+        default=None,
+        description="mean aerodynamic chord; centers of gravity are given in % of it",
+    )
     steady: Steady | None = Field(
         default=None,
         description="steady flight at 1 g of a deck of the user's: stresses upon which "
@@ -404,6 +410,11 @@ class Case(Section):
         case = self.model_copy()
         case._places = places
         return case
+
+    @model_validator(mode="before")
+    @classmethod
+    def _design_values(cls, data: Any) -> Any:
+        return with_design_values(data)
 
     @model_validator(mode="after")
     def _bushing_in_flight(self) -> Self:

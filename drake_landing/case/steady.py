@@ -1,10 +1,12 @@
 """Steady flight at 1 g, as a case gives it for a deck of the user's."""
 
-from typing import Self
+from pathlib import Path
+from typing import Any, Self
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from drake_landing.case.section import Section
+from drake_landing.files import relative_to_case
 
 
 class Steady(Section):
@@ -14,7 +16,12 @@ class Steady(Section):
         default=None,
         gt=0,
         description="load set of the deck (LOAD, or FORCE, MOMENT, PLOAD4 ...): the "
-        "external loads of steady flight, without weight",
+        "external loads of steady flight, without weight; of `file` where one is given",
+    )
+    file: Path | None = Field(
+        default=None,
+        description="instead: a file of FORCE and MOMENT in the units of the deck, "
+        "relative to the case file; with `load` one of its sets, else all of it",
     )
     nodes: tuple[int, ...] = Field(
         default=(),
@@ -26,10 +33,15 @@ class Steady(Section):
         "centre of gravity; default equal",
     )
 
+    @field_validator("file", mode="after")
+    @classmethod
+    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
+        return relative_to_case(found, info.context)
+
     @model_validator(mode="after")
     def _one(self) -> Self:
-        if (self.load is None) == (not self.nodes):
-            raise ValueError("steady: give either load or nodes")
+        if (self.load is None and self.file is None) == (not self.nodes):
+            raise ValueError("steady: give either load, file or nodes")
         if self.shares is not None and len(self.shares) != len(self.nodes):
             raise ValueError(
                 f"shares: {len(self.shares)} for {len(self.nodes)} nodes, expected one "

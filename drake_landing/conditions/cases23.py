@@ -169,6 +169,7 @@ def side(aircraft: GroundAircraft) -> Iterator[BookCase]:
             name=f"side load to {toward}",
             loads=tuple(loads),
             pose="static",
+            note="no lift: the ground carries 1.33 W, inertia balances all of it",
         )
 
 

@@ -38,6 +38,7 @@ CS23: tuple[Paragraph, ...] = (
         title="landing conditions and assumptions",
         rule="4.4 (W/S)^¼ ft/s, between 7 and 10; lift two thirds of the weight; n no "
         "less than 2.67 and on the ground 2.0",
+        unsure="2.67, 2.0",
         does="sink rate of the landing from conditions.wing_area; both least factors",
     ),
     Paragraph(
@@ -149,6 +150,7 @@ CS23: tuple[Paragraph, ...] = (
         title="towing",
         rule="n = 1; main gears 0.225 W each, parallel and at 30°; nose or tail 0.3 "
         "W, at 45° 0.15 W; reacted as in 25.509",
+        unsure="0.225, 0.3, 0.15",
         does="static cases, both reactions; the fitting is taken at the axle",
         cases=cases.towing23,
     ),

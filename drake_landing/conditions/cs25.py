@@ -56,6 +56,7 @@ CS25: tuple[Paragraph, ...] = (
         title="level landing, largest vertical load",
         rule="in addition: the largest vertical load with a drag of at least 25 % of "
         "it, at the axle",
+        unsure="at the axle",
         does="static cases: main gears, all gears",
         cases=landing.level_drag,
         needs=_LANDING,
@@ -65,6 +66,7 @@ CS25: tuple[Paragraph, ...] = (
         title="drift",
         rule="rational, or 75 % of the largest vertical load with 40 % of that as "
         "drag and 25 % to the side; deflections 75 %",
+        unsure="deflections 75 %",
         does="static cases to both sides, at the ground; rational: preset drift",
         cases=landing.drift,
         presets=("drift",),
@@ -85,10 +87,10 @@ CS25: tuple[Paragraph, ...] = (
         title="one-gear landing",
         rule="level, one main gear: the loads of that side of 25.479(d)(1); the "
         "unbalanced ones are reacted by inertia",
-        does="static cases for each main gear; preset rolled is another condition, "
-        "with larger loads",
+        does="static cases for each main gear; over time: preset one_gear; preset "
+        "rolled is another condition, with larger loads",
         cases=landing.one_gear,
-        presets=("rolled",),
+        presets=("one_gear", "rolled"),
         needs=_LANDING,
     ),
     Paragraph(
@@ -230,6 +232,7 @@ CS25: tuple[Paragraph, ...] = (
         rule="F = 0.3 W to 30 000 lb, (6 W + 450 000)/70 to 100 000 lb, 0.15 W above: "
         "main gears 0.75 F each, parallel and at 30°; nose or tail F, at 45° 0.5 F; "
         "reacted at the axle up to its vertical load and by inertia, or by inertia",
+        unsure="nose and tail: F, 45°, 0.5 F",
         does="static cases, both reactions; the fitting is taken at the axle",
         cases=handling.towing,
         design=("take_off",),
@@ -239,6 +242,7 @@ CS25: tuple[Paragraph, ...] = (
         title="several wheels, tires inflated",
         rule="two thirds of the worst difference of diameters, pressures ±5 %, crown "
         "0 and 1.5 %, attitude, deflection of the structure",
+        mark="memory",
         does="dynamic runs: gears.<name>.tyres, runway.crown; no static cases",
     ),
     Paragraph(
@@ -246,6 +250,7 @@ CS25: tuple[Paragraph, ...] = (
         title="flat tires, landing",
         rule="one flat tire 60 %, two (of four or more wheels) 50 % of the gear's "
         "loads; 25.485: the whole vertical load; not with drift",
+        unsure="60 %, 50 %; the whole load of 25.485 was read",
         does="static cases; the shift of the load's middle is let go",
         cases=landing.flat_tire_landing,
         needs=(*_LANDING, needs_several_wheels),

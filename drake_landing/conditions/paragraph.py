@@ -25,6 +25,7 @@ class Paragraph:
         rule: what it asks for, in our own words.
         does: what the program does with it.
         mark: how its text is known: read, from a secondary source, or from memory.
+        unsure: figures of the rule that are from memory where the rest was read.
         cases: its static load cases; None: it has none here.
         presets: of `scenario`, that show it dynamically.
         needs: what an aircraft must have; the first that is missing is named.
@@ -36,10 +37,16 @@ class Paragraph:
     rule: str
     does: str
     mark: Mark = "read"
+    unsure: str = ""
     cases: Cases | None = None
     presets: tuple[str, ...] = ()
     needs: tuple[Need, ...] = ()
     design: tuple[Weight, ...] = ANY
+
+    @property
+    def text(self) -> str:
+        """How its text is known, and which figures less well."""
+        return self.mark + (f"; from memory: {self.unsure}" if self.unsure else "")
 
     def missing(self, aircraft: GroundAircraft) -> str:
         """Why the static cases cannot be built; empty: they can."""

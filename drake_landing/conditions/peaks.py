@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from drake_landing.case.conditions import Conditions
+from drake_landing.case.design_values import LEVEL_FACTOR, touchdown_speeds
 from drake_landing.case.scenario import Scenario
 from drake_landing.case.schema import Simulation
 from drake_landing.conditions.cases23 import sink_rate as sink_rate_23
@@ -76,7 +77,7 @@ def landing_peaks(
     conditions: Conditions,
     sink: float,
 ) -> Peaks:
-    """Runs the three landings.
+    """Runs the three landings, each at both speeds of its rule where these are known.
 
     Args:
         body: of the airframe, A.
@@ -91,15 +92,29 @@ def landing_peaks(
         "tail_down": conditions.tail_down_pitch,
     }
     simulation = Simulation(duration=_DURATION)
-    base = {"sink_rate": sink, "forward_speed": conditions.forward_speed}
     landing, found = None, {}
     for name, pitch in attitudes.items():
-        scenario = Scenario.model_validate(base | {"pitch": pitch})
-        if landing is None:
-            landing = build_landing(body, gears, {}, R_AB, scenario)
-        history = fly(landing, scenario, simulation, {}, R_AB)
-        found[name] = {gear.name: _peak(history, gear.name) for gear in gears}
+        peaks = []
+        for speed in landing_speeds(conditions, tail_down=name == "tail_down"):
+            given = {"sink_rate": sink, "forward_speed": speed, "pitch": pitch}
+            scenario = Scenario.model_validate(given)
+            if landing is None:
+                landing = build_landing(body, gears, {}, R_AB, scenario)
+            history = fly(landing, scenario, simulation, {}, R_AB)
+            peaks.append({gear.name: _peak(history, gear.name) for gear in gears})
+        found[name] = {
+            gear.name: max((p[gear.name] for p in peaks), key=lambda p: p.vertical)
+            for gear in gears
+        }
     return Peaks(**found)
+
+
+def landing_speeds(conditions: Conditions, *, tail_down: bool) -> tuple[float, ...]:
+    """V_L1 and 1.25 V_L2 (tail-down V_L2) of CS-25, or what the case gives, m/s."""
+    if conditions.stall_speed is None or conditions.rules != "CS-25":
+        return (conditions.forward_speed,)
+    low, high = touchdown_speeds(conditions.stall_speed, conditions.altitude)
+    return low, high if tail_down else LEVEL_FACTOR * high
 
 
 def _peak(history: LandingHistory, gear: str) -> Peak:

@@ -28,6 +28,7 @@ from drake_landing.landing.history import (
     LandingHistory,
 )
 from drake_landing.landing.lift import AFT
+from drake_landing.landing.one_gear import with_one_gear
 from drake_landing.landing.settling import LIMIT, Settling, has_settled, swing_of
 from drake_landing.landing.stall import StallWatch
 from drake_landing.landing.start import (
@@ -165,7 +166,11 @@ def fly(
         "processor_seconds": clock.process_time() - start,
         "sink_energy": reference_energy(landing, scenario),
     }
-    return _history(landing, context, monitoring, R_AB, figures)
+    history = _history(landing, context, monitoring, R_AB, figures)
+    if scenario.one_gear is None:
+        return history
+    side, body = scenario.one_gear, landing.body
+    return with_one_gear(history, body, landing.gears, side, monitoring, R_AB)
 
 
 def _end(simulation: Simulation) -> float:

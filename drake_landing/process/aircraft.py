@@ -126,7 +126,9 @@ def _steady(
     given, R_AB = airframe.steady, rotation_AB(airframe.axes)
     if given is None:
         return None
-    return partial(steady_flight, gears=gears, given=given, R_AB=R_AB)
+    return partial(
+        steady_flight, gears=gears, given=given, R_AB=R_AB, units=airframe.units
+    )
 
 
 def _damped(

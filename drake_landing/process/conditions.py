@@ -132,7 +132,7 @@ def _run(case: Case, out: Path, stages: Stages) -> ConditionsResult:
     result = solve(case, aircraft, structure, ground, out)
     stages.begin("tables and pictures")
     write_tables(result, out)
-    load_pictures(result.balances, ground, out / "pictures")
+    load_pictures(result.balances, ground, out / "pictures", airframe.skeleton)
     stages.end()
     notices = (*aircraft.notices, *map(case.places.named, remarks))
     notices += _steady_notices(aircraft)
@@ -210,7 +210,7 @@ def solve(
         InputError: no paragraph applies.
     """
     R_AB = rotation_AB(case.airframe.axes)
-    applied, left_out, balances = {}, {}, []
+    applied, left_out, balances, texts = {}, {}, [], []
     for paragraph in RULES[case.conditions.rules]:
         if paragraph.cases is None:
             continue
@@ -220,6 +220,7 @@ def solve(
         found = [rigid_balance(ground, c) for c in paragraph.cases(ground.aircraft)]
         applied[paragraph.number] = len(found)
         balances += found
+        texts += [paragraph.text] * len(found)
     if not balances:
         raise InputError(
             "conditions: no paragraph applies: "
@@ -236,7 +237,7 @@ def solve(
         applied=applied,
         left_out=left_out,
         balances=tuple(balances),
-        cases=_case_table(balances),
+        cases=_case_table(balances).assign(text=texts),
         gear_loads=_gear_table(balances),
         attachment_loads=_attachment_table(held, split),
         worst=_worst(case, watch, answers),

@@ -249,9 +249,20 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
     energy = 0.5 * mass * s.sink_rate**2
     yield _line("scenario", f"{s.story}; {s.lift_story}")
     sinks = f", sink energy {energy / 1e3:.1f} kJ" * (s.start == "touchdown")
-    x, y, z = loaded(structure, aircraft.gears).center
+    whole = loaded(structure, aircraft.gears)
+    x, y, z = whole.center
     with_gears = f"centre of gravity with gears at {x:z.3f}, {y:z.3f}, {z:z.3f} m"
+    if case.airframe.mac is not None:
+        R_AB = rotation_AB(case.airframe.axes)
+        share = case.airframe.mac.percent(whole.center, R_AB)
+        with_gears += f" ({share:.2f} % MAC)"
     yield _line("", f"{mass:,.1f} kg in all, {with_gears}{sinks}")
+    with_gears, without = (
+        " / ".join(f"{v:,.0f}" for v in np.diag(inertia))
+        for inertia in (whole.inertia, structure.rigid_mass.inertia)
+    )
+    about = "about x / y / z through the own centre of gravity"
+    yield _line("", f"inertia {with_gears} kg m², without gears {without}, {about}")
 
 
 def _run(

@@ -176,25 +176,33 @@ def _mass_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
     """Of the airframe and of the aircraft with its gears."""
     body, R_AB = result.airframe.body, result.airframe.R_AB
     whole = whole_mass(result.airframe, result.aircraft.gears)
-    inertia = whole.inertia
+    own, chord = R_AB.T @ body.p_BG, result.case.airframe.mac
+
+    def share(cg: np.ndarray) -> str:
+        return "" if chord is None else f", {chord.percent(cg, R_AB):.2f} % MAC"
+
     pairs = [
-        ("airframe without gears", _mass(body.mass, R_AB.T @ body.p_BG)),
-        ("aircraft with gears", _mass(whole.mass, whole.cg)),
-        (
-            "inertia with gears",
-            "about that centre of gravity, axes of the deck, kg m²: "
-            + ", ".join(f"I{a}{a} {inertia[i, i]:,.0f}" for i, a in enumerate("xyz"))
-            + "; products (minus the integrals) "
-            + ", ".join(
-                f"I{'xyz'[i]}{'xyz'[j]} {inertia[i, j]:z,.0f}"
-                for i, j in ((0, 1), (0, 2), (1, 2))
-            ),
-        ),
+        ("airframe without gears", _mass(body.mass, own) + share(own)),
+        ("its inertia", _inertia(R_AB.T @ body.inertia_G @ R_AB)),
+        ("aircraft with gears", _mass(whole.mass, whole.cg) + share(whole.cg)),
+        ("its inertia with gears", _inertia(whole.inertia)),
     ]
     gears = [
         f"{g.name.replace('_', ' ')} {g.mass:,.1f} kg" for g in result.aircraft.gears
     ]
     return [*pairs, ("gears", ", ".join(gears))]
+
+
+def _inertia(inertia: np.ndarray) -> str:
+    return (
+        "about that centre of gravity, axes of the deck, kg m²: "
+        + ", ".join(f"I{a}{a} {inertia[i, i]:,.0f}" for i, a in enumerate("xyz"))
+        + "; products (minus the integrals) "
+        + ", ".join(
+            f"I{'xyz'[i]}{'xyz'[j]} {inertia[i, j]:z,.0f}"
+            for i, j in ((0, 1), (0, 2), (1, 2))
+        )
+    )
 
 
 def _mass(mass: float, cg: np.ndarray) -> str:

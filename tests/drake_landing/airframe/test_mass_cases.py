@@ -176,3 +176,87 @@ def test_an_unknown_massset_lists_those_of_the_deck(tmp_path):
     given = "  mass_cases: {a: {massset: 7}}\n  mass_case: a\n"
     with pytest.raises(InputError, match="massset: found 7, expected a MASSSET"):
         prepare_aircraft(massset_case(given, tmp_path), tmp_path)
+
+
+@pytest.mark.parametrize("units", ["SI", "mm-t-N"])
+def test_steady_flight_from_a_file_or_a_set_in_the_units_of_the_deck(tmp_path, units):
+    """The lift of the nodes, written as forces with a moment, loads it alike."""
+    name = "tiny_aircraft.bdf" if units == "SI" else "tiny_aircraft_mm.bdf"
+    text = (HERE / name).read_text()
+    base = TINY.replace("tiny_aircraft.bdf", "own.bdf").replace(
+        "  select: count 6\n",
+        f"  select: count 6\n  units: {units}\n  steady: STEADY\n",
+    )
+    (tmp_path / "own.bdf").write_text(text)
+
+    def load(steady: str) -> np.ndarray:
+        case = parse_case(base.replace("STEADY", steady), folder=tmp_path)
+        aircraft = prepare_aircraft(case, tmp_path)
+        return aircraft.steady_load(aircraft.structure())
+
+    expected = load("{nodes: [24, 34, 1, 9]}")
+    case = parse_case(base.replace("STEADY", "{nodes: [5]}"), folder=tmp_path)
+    aircraft = prepare_aircraft(case, tmp_path)
+    structure = aircraft.structure()
+    whole = loaded(structure, aircraft.gears)
+    weight = 9.80665 * whole.mass
+    arm = 1e3 if units == "mm-t-N" else 1.0
+    moment = -weight * (whole.center[0] - 8.0) * arm  # grid 5 lies at x = 8 m
+    cards = f"FORCE,7,5,,{weight:.8g},0.,0.,1.\nMOMENT,7,5,,{moment:.8g},0.,1.,0.\n"
+    (tmp_path / "lift.bdf").write_text(cards)
+    rigid = structure.rigid_body
+    for steady in ("{file: lift.bdf}", "{file: lift.bdf, load: 7}"):
+        found = load(steady)
+        error = rigid.T @ (found - expected)
+        assert np.abs(error).max() < 1e-6 * weight
+    (tmp_path / "own.bdf").write_text(text.replace("ENDDATA", f"{cards}ENDDATA"))
+    error = rigid.T @ (load("{load: 7}") - expected)
+    assert np.abs(error).max() < 1e-6 * weight
+
+
+def test_a_file_of_loads_names_what_is_wrong(tmp_path):
+    (tmp_path / "lift.bdf").write_text(
+        "FORCE,7,777,,1.,0.,0.,1.\nGRAV,8,,1.,0.,0.,1.\n"
+    )
+    text = "  steady: {file: lift.bdf}\n"
+    aircraft = prepare_aircraft(case_with(text, tmp_path), tmp_path)
+    with pytest.raises(InputError) as error:
+        aircraft.steady_load(aircraft.structure())
+    assert "found GRAV, expected FORCE and MOMENT alone" in str(error.value)
+
+
+def test_centre_of_gravity_over_the_mean_chord():
+    """Leading edge at 7 m, chord 2 m: 8.5 m is 75 %, whichever way the deck flies."""
+    from drake_landing.case.chord import Chord
+
+    aft = Chord(leading_edge=7.0, chord=2.0)
+    assert aft.percent(np.array([8.5, 0.0, 0.0]), np.eye(3)) == pytest.approx(75.0)
+    forward = np.diag([-1.0, -1.0, 1.0])  # the deck's x points forward
+    turned = Chord(leading_edge=-7.0, chord=2.0)
+    assert turned.percent(np.array([-8.5, 0.0, 0.0]), forward) == pytest.approx(75.0)
+
+
+def test_design_weights_pair_with_sink_rates_and_speeds(tmp_path):
+    """25.473(a): 10 ft/s at the landing, 6 ft/s at the take-off weight."""
+    cases = "  mass_cases: {heavy: {design: take_off}, light: {design: landing}}\n"
+
+    def of(name: str, scenario: str = "{preset: tail_down}"):
+        text = TINY.replace("{sink_rate: 1.2, forward_speed: 40}", scenario)
+        text = text.replace(
+            "  select: count 6\n", f"  select: count 6\n{cases}  mass_case: {name}\n"
+        ).replace("tiny_aircraft.bdf", str(HERE / "tiny_aircraft.bdf"))
+        speeds = "conditions: {stall_speed: 50, altitude: 2000}\n"
+        return parse_case(text + speeds, folder=tmp_path)
+
+    heavy, light = of("heavy"), of("light")
+    assert heavy.scenario.sink_rate == 1.8288
+    assert light.scenario.sink_rate == 3.048
+    assert heavy.conditions.weight == "take_off"
+    assert light.conditions.weight == "landing"
+    # ISA at 2000 m: 0.8217 of the density; 22.8 K hotter than 275.15 K.
+    ratio = 0.8217 * 275.15 / (275.15 + 22.8)
+    assert heavy.scenario.forward_speed == pytest.approx(50.0 / ratio**0.5, rel=1e-3)
+    level = of("heavy", "{preset: two_point}").scenario.forward_speed
+    assert level == pytest.approx(1.25 * heavy.scenario.forward_speed)
+    given = of("heavy", "{preset: tail_down, sink_rate: 2.5, forward_speed: 44}")
+    assert (given.scenario.sink_rate, given.scenario.forward_speed) == (2.5, 44.0)
