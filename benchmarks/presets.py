@@ -53,23 +53,34 @@ INDEPENDENT = (
 )
 
 
-def reference_aircraft(level: str, below_hz: float) -> tuple[ModalBody, Sequence]:
-    """Modal body and gears of a built-in aircraft."""
+Wing = tuple[int, ...]
+
+
+def reference_aircraft(
+    level: str, below_hz: float
+) -> tuple[ModalBody, Sequence[LandingGear], Wing]:
+    """Modal body, gears and the nodes that carry the lift of a built-in aircraft."""
     text = (
         f"name: presets\nairframe: {{model: {level}, select: below {below_hz:g} Hz}}\n"
-        "scenario: {sink_rate: 1}\n"
+        "scenario: {sink_rate: 1, lift: {}}\n"
     )
     case = parse_case(text)
     with TemporaryDirectory() as folder:
         aircraft = prepare_aircraft(case, Path(folder))
         model = load_airframe(case.airframe, aircraft, cache=Cache.of_user())
-        return model.body, aircraft.gears
+        return model.body, aircraft.gears, aircraft.lift_nodes
 
 
 def run_preset(
-    name: str, body: ModalBody, gears: Sequence[LandingGear], **given: float
+    name: str,
+    body: ModalBody,
+    gears: Sequence[LandingGear],
+    wing: Wing = (),
+    **given: float,
 ) -> Trial:
-    """The run of a preset, with other values where given."""
+    """The run of a preset, with other values where given; `wing` carries its lift."""
+    if isinstance(lift := PRESETS[name].values.get("lift"), dict):
+        given = {"lift": {**lift, "nodes": wing}, **given}
     scenario = Scenario.model_validate({"preset": name, **given})
     preset = scenario.preset_data
     assert preset is not None
@@ -208,10 +219,12 @@ def braked_nose_load(body: ModalBody, gears: Sequence[LandingGear]) -> float:
 
 def tables(level: str, below_hz: float) -> dict[str, list[str]]:
     """Name of each table of an aircraft -> its lines."""
-    body, gears = reference_aircraft(level, below_hz)
+    body, gears, wing = reference_aircraft(level, below_hz)
     static, _ = at_rest(body, gears)
     mass, _ = aircraft_mass_center(body, gears)
-    trials = {name: run_preset(name, body, gears) for name in PRESETS}
+    # Gears land in one_gear as in two_point.
+    names = [name for name in PRESETS if name != "one_gear"]
+    trials = {name: run_preset(name, body, gears, wing) for name in names}
     head = [
         f"{mass / 1e3:.1f} t, {body.n} elastic modes below {body.frequency[-1]:.0f} "
         f"Hz; at rest the nose gear carries {static['nose'] / 1e3:.1f} kN, a main gear "
