@@ -1,12 +1,14 @@
 """Pages of the site that are made when it is built: a hook of mkdocs.
 
-README, CONTRIBUTING and CHANGELOG stand at the root of the repository; the reference
-has a page for each room, with the docstrings of its modules. Systems that Drake makes
-for several scalars exist at run time only: their docstrings are taken from there.
+README, CONTRIBUTING and CHANGELOG stand at the root of the repository; all fields of a
+case come from its schema (`case_page`); the reference has a page for each room, with
+the docstrings of its modules. Systems that Drake makes for several scalars exist at run
+time only: their docstrings are taken from there.
 """
 
 import inspect
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,6 +16,9 @@ from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
 import systems
+
+sys.path.insert(0, str(Path(__file__).parent))
+from case_page import case_page
 
 ROOT = Path(__file__).parents[1]
 PACKAGES = ("drake_landing", "systems", "fem")
@@ -41,6 +46,7 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for source, page in _AT_ROOT.items():
         text = (ROOT / source).read_text(encoding="utf-8")
         files.append(File.generated(config, page, content=_from_root(text)))
+    files.append(File.generated(config, "case.md", content=case_page()))
     for package in PACKAGES:
         for _, page, modules in _rooms(package):
             content = "\n\n".join(_reference(modules))

@@ -16,7 +16,7 @@ LOADED = re.compile(
 def test_navigation_has_every_page() -> None:
     text = (ROOT / "mkdocs.yml").read_text(encoding="utf-8").partition("nav:")[2]
     named = set(re.findall(r"\w+\.md", text))
-    made = {"index.md", "contributing.md", "changes.md"}
+    made = {"index.md", "contributing.md", "changes.md", "case.md"}
     assert named == made | {path.name for path in (ROOT / "docs").glob("*.md")}
 
 

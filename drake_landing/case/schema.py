@@ -196,10 +196,12 @@ class Airframe(Section):
     )
     fixed_interface_modes: SelectionText = Field(
         default=Selection(kind="below", value=150.0),
+        json_schema_extra={"default": "below 150 Hz"},
         description="generalised coordinates of craig-bampton: count N, below F Hz",
     )
     select: SelectionText = Field(
         default=Selection(kind="below", value=50.0),
+        json_schema_extra={"default": "below 50 Hz"},
         description="elastic modes of the multibody model: count N, below F Hz, all; "
         "relevance N, relevance error <= x %: those that the gears excite and the "
         "monitoring points feel most; pulses N: shapes combined from these",
