@@ -212,14 +212,23 @@ def _strut_share(gear: LandingGear) -> float:
 
 
 def _tyre_remarks(gear: LandingGear, load: float) -> list[str]:
-    tyre = tire_parameters(gear.tyre)
-    law, each = TireLaw(tyre, Runway()), load / len(gear.wheel_names)
-    low, high = (share * tyre.radius for share in _TYRE_FLATTENED)
-    if law.elastic_force(low) < each < law.elastic_force(high):
-        return []
-    field = "load_table" if gear.tyre.load_table else "stiffness"
-    side, bound = ("less", low) if each <= law.elastic_force(low) else ("more", high)
-    return [
-        f"tyre.{field}: at rest {each / 1e3:.4g} kN flatten the tyre by {side} than "
-        f"{bound:.3g} m; stiffness is in N/m"
-    ]
+    """Of the common tyre where it bears its share; of single ones beside it."""
+    each, remarks = load / len(gear.wheel_names), []
+    tyres = {"tyre": gear.tyre} if len(gear.tyres) < len(gear.wheel_names) else {}
+    tyres |= {f"tyres.{wheel}": tyre for wheel, tyre in gear.tyres.items()}
+    for name, data in tyres.items():
+        tyre = tire_parameters(data)
+        law = TireLaw(tyre, Runway())
+        low, high = (share * tyre.radius for share in _TYRE_FLATTENED)
+        if law.elastic_force(low) < each < law.elastic_force(high):
+            continue
+        field = "load_table" if data.load_table else "stiffness"
+        little = each <= law.elastic_force(low)
+        side, bound = ("less", low) if little else ("more", high)
+        if data.inflation != 1.0 and not little:
+            continue  # flat on purpose: others bear its share
+        remarks.append(
+            f"{name}.{field}: at rest {each / 1e3:.4g} kN flatten the tyre by {side} "
+            f"than {bound:.3g} m; stiffness is in N/m"
+        )
+    return remarks

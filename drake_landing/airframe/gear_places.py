@@ -122,8 +122,8 @@ def clearances(gears: Sequence[LandingGear], R_WB: Float64) -> dict[str, float]:
     """Height of each gear's lowest wheel over the lowest of all, extended, m."""
     heights = {
         gear.name: min(
-            float(R_WB[2] @ p - _radius(gear, R_WB))
-            for p in wheel_centres(gear).values()
+            float(R_WB[2] @ p) - _reach(gear.tyre_of(wheel).radius, R_WB)
+            for wheel, p in wheel_centres(gear).items()
         )
         for gear in gears
     }
@@ -131,9 +131,9 @@ def clearances(gears: Sequence[LandingGear], R_WB: Float64) -> dict[str, float]:
     return {name: height - lowest for name, height in heights.items()}
 
 
-def _radius(gear: LandingGear, R_WB: Float64) -> float:
-    """How far the tyre reaches below its centre; a tilted wheel reaches less."""
-    return gear.tyre.radius * float(np.sqrt(max(1.0 - R_WB[2, 1] ** 2, 0.0)))
+def _reach(radius: float, R_WB: Float64) -> float:
+    """How far a tyre reaches below its centre; a tilted wheel reaches less."""
+    return radius * float(np.sqrt(max(1.0 - R_WB[2, 1] ** 2, 0.0)))
 
 
 def pitch_of_all(gears: Sequence[LandingGear]) -> float | None:

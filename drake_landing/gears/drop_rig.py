@@ -8,11 +8,17 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy.typing as npt
+import pandas as pd
 from pydrake.autodiffutils import AutoDiffXd
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import PrismaticJoint, SpatialInertia
-from pydrake.systems.analysis import ResetIntegratorFromFlags, Simulator_
-from pydrake.systems.framework import Context, Diagram, DiagramBuilder
+from pydrake.systems.analysis import (
+    ApplySimulatorConfig,
+    ResetIntegratorFromFlags,
+    Simulator_,
+    SimulatorConfig,
+)
+from pydrake.systems.framework import Context, Diagram, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
 
 from drake_landing.gears.bodies import AddLandingGear
@@ -93,6 +99,51 @@ class DropRig:
     def _number(self, value: Any) -> Any:
         return value if isinstance(value, AutoDiffXd) else self.scalar(value)
 
+    def drop(
+        self,
+        *,
+        sink_rate: float,
+        speed: float = 0.0,
+        duration: float,
+        accuracy: float = 1e-5,
+        **tunables: float,
+    ) -> pd.DataFrame:
+        """One drop, of a rig with logs.
+
+        Args:
+            sink_rate, speed, tunables: see `set_drop`.
+            duration: s.
+            accuracy: of the integrator.
+
+        Returns:
+            Over time (s): stroke (m), rate (m/s), force of the shock absorber (N),
+            vertical load and drag of all tyres (N), total of the energy budget (J).
+        """
+        simulator = Simulator_[float](self.diagram)
+        config = SimulatorConfig(
+            integration_scheme="runge_kutta3",
+            accuracy=accuracy,
+            max_step_size=5e-3,
+            use_error_control=True,
+        )
+        ApplySimulatorConfig(config, simulator)
+        context = simulator.get_mutable_context()
+        self.set_drop(context, sink_rate=sink_rate, speed=speed, **tunables)
+        simulator.AdvanceTo(duration)
+        logs = {name: log.FindLog(context) for name, log in self.loggers.items()}
+        data = {name: log.data() for name, log in logs.items()}
+        contact = sum(data[f"contact_{wheel}"] for wheel in self.gear.wheel_names)
+        columns = {
+            "stroke": data["strut"][0],
+            "rate": data["strut"][1],
+            "force": data["force"][0],
+            "vertical": contact[1],
+            "drag": contact[2],
+            "total": data["total"][0],
+        }
+        time = pd.Index(logs["strut"].sample_times(), name="time")
+        return pd.DataFrame(columns, index=time)
+
     def peak_force(
         self,
         *,
@@ -131,6 +182,7 @@ def drop_rig(
     mass: float,
     p_BA: npt.ArrayLike,
     runway: Runway | None = None,
+    controller: LeafSystem | None = None,
     log: bool = True,
 ) -> DropRig:
     """Builds the rig: lift equals weight, the carriage does not turn.
@@ -140,6 +192,8 @@ def drop_rig(
         mass: kg, gear and all that it stops.
         p_BA: (3,) attachment point in B, m.
         runway: default flat and dry.
+        controller: of the shock absorber's valve, with the input `strut_state` (2) and
+            the output `damping_command` (1); default none.
         log: adds loggers.
 
     Raises:
@@ -168,6 +222,13 @@ def drop_rig(
     )
     budget = AddEnergyBudget(builder, plant, list(parts.by_name.values()))
     strut, kinematics = parts.shock_absorbers[gear.name], parts.wheel_kinematics
+    if controller is not None:
+        builder.AddNamedSystem("controller", controller)
+        for source, port, target in (
+            (kinematics.GetOutputPort(f"strut_{gear.name}"), "strut_state", controller),
+            (controller.GetOutputPort("damping_command"), "damping_command", strut),
+        ):
+            builder.Connect(source, target.GetInputPort(port))
     ports = {
         "strut": kinematics.GetOutputPort(f"strut_{gear.name}"),
         "force": strut.GetOutputPort("force"),

@@ -201,7 +201,7 @@ def _gear(
         path = f"/gears/{rod.body}/rod_{i}"
         add_rod(meshcat, path, rod, radius)
     for wheel in gear.wheel_names:
-        add_wheel(meshcat, f"/gears/{wheel}_wheel", gear.tyre.radius)
+        add_wheel(meshcat, f"/gears/{wheel}_wheel", gear.tyre_of(wheel).radius)
     poses = {
         name: _poses_at(history.time, poses, motion)
         for name, poses in history.bodies.items()
@@ -270,14 +270,15 @@ def _load(
     columns = ("deflection", "drag", "side", "vertical")
     values = [np.interp(motion.time, table.index, table[name]) for name in columns]
     offset = gear.wheel_offsets[gear.wheel_names.index(wheel) % len(gear.wheel_offsets)]
-    aside = (1.0 if offset >= 0.0 else -1.0) * 0.6 * gear.tyre.radius
+    radius = gear.tyre_of(wheel).radius
+    aside = (1.0 if offset >= 0.0 else -1.0) * 0.6 * radius
     for i, (X, deflection, drag, side, vertical) in enumerate(zip(poses, *values)):
         axle = X.rotation().matrix()[:, 1]
         aft = np.array([axle[1], -axle[0], 0.0])
         aft /= np.linalg.norm(aft)
         across = np.array([-aft[1], aft[0], 0.0])
         foot = X.translation() + aside * axle
-        foot[2] -= gear.tyre.radius - max(deflection, 0.0)
+        foot[2] -= radius - max(deflection, 0.0)
         force = drag * aft + side * across + np.array([0.0, 0.0, vertical])
         arrow.show(animation, i, foot, force)
 

@@ -198,6 +198,10 @@ def test_root_of_a_leg_lies_above_its_axle_and_near():
         ),
         (_tyre(LEFT, stiffness=2000.0), "tyre.stiffness: at rest 160"),
         (_tyre(LEFT, stiffness=2e9), "tyre.stiffness: at rest 160"),
+        (
+            changed(LEFT, tyres={"main_left_right": {"stiffness": 2e9}}),
+            "tyres.main_left_right.stiffness: at rest 160",
+        ),
     ],
 )
 def test_odd_loads_at_rest_are_remarked(left, message):
