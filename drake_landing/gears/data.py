@@ -243,6 +243,7 @@ class TelescopicGear(LandingGear):
     kind: Literal["telescopic"] = "telescopic"
     bodies: ModelFile | None = Field(
         default=None,
+        exclude=True,  # read, it has become the fields that it stands for
         description=f"a model file in place of {', '.join(FIELDS)}; default none",
     )
     axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
