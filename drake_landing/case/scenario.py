@@ -484,7 +484,7 @@ class Scenario(Section):
     def lift_story(self) -> str:
         """How lift and weight act."""
         if self.lift == "weight":
-            return "lift balances the weight, neither acts"
+            return "lift balances the weight, and neither is applied"
         if self.lift == "none" or not isinstance(self.lift, Lift):
             return "gravity without lift"
         lift = self.lift

@@ -24,7 +24,7 @@ def gear_echo(gears: Sequence[LandingGear], source: str) -> Block:
     heads = {"field": "field", "meaning": "meaning and unit"}
     heads |= {f"gear{i}": g.name.replace("_", " ") for i, g in enumerate(gears)}
     table = pd.DataFrame(list(rows.values()), columns=list(heads)).fillna("–")
-    caption = f"Gear data as used, axes of the deck; from {source}"
+    caption = f"Gear data as used, in the deck's basic frame (B); from {source}"
     return table_block(table, heads, {}, caption, fold=True)
 
 

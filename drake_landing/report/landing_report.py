@@ -41,7 +41,7 @@ _AGREEMENT = {
     "point": "point",
     "axis": "axis",
     "peak_fe": "peak, transient m/s²",
-    "peak_low": "below the last mode m/s²",
+    "peak_low": "low-passed m/s²",
     "peak_mbs": "peak, multibody m/s²",
     "peak_error": "peak error",
     "rms_error": "rms difference",
@@ -163,8 +163,9 @@ def _axes(result: "ProcessResult") -> Section:
         "whatever the units of the deck, unless the line itself says otherwise. "
         "Aircraft directions (aft, starboard, up) are those of the level aircraft and "
         "turn with it. Loads, accelerations and stresses are increments to the steady "
-        "flight before touchdown where nothing else is said; time counts from the "
-        "start of the run.",
+        "flight before touchdown where nothing else is said; all are limit loads, "
+        "without a factor. Accelerations are those of the motion: an accelerometer "
+        "shows 1 g upward more. Time counts from the start of the run.",
         blocks=[
             Block(svg=sketch, caption="The arrows start at the deck's origin."),
             pairs_block(_mass_pairs(result), "Mass, gears extended"),
@@ -248,11 +249,12 @@ def _extremes(result: "ProcessResult") -> Section:
         id="extremes",
         title="Extremes of all results",
         text="Extremes of element forces and stresses in the direct transient, "
-        "increments to steady flight: for each type and quantity the element that sees "
-        "most. All elements: results.h5, group envelope; the worst ten: "
+        "increments to steady flight: for each type and quantity the element with "
+        "the largest. All elements: results.h5, group envelope; the worst ten: "
         "worst_elements.csv. Quantities and element axes are Nastran's; SI units (N, "
         "N m, N/m of shells, Pa). Stresses of bars without stress recovery points "
-        "leave out bending.",
+        "leave out bending; those of CBUSH are forces times the recovery coefficients "
+        "of PBUSH (1 by default), and no stress then.",
         blocks=[table_block(worst, _WORST, {"value": ".4g", "time": ".3f"})],
     )
 
@@ -272,8 +274,9 @@ def _accelerations(result: "ProcessResult") -> Section:
         "transient of the full model under the same attachment loads. Axes of the "
         f"deck ({deck_axes(result.airframe.R_AB)}); components that vanish by symmetry "
         "are left out. The transient has the modes above the last of the multibody "
-        "model too: beside its raw peaks stand those without what lies above "
-        f"{result.airframe.highest_hz:.0f} Hz.",
+        "model too: beside its raw peaks stand those low-passed at "
+        f"{result.airframe.highest_hz:.0f} Hz (Butterworth, forward and back: no phase, "
+        "and peaks may grow a little).",
         blocks=[
             *(Block(svg=picture) for picture in pictures if picture),
             table_block(
@@ -367,7 +370,7 @@ def _gear_peaks(result: "ProcessResult") -> Block:
         f"Load case '{result.case.name}': peaks per gear (largest magnitude, with its "
         "sign): tyres in the axes of the runway; F and M on the airframe at the "
         f"attachment node, axes of the deck ({deck_axes(result.airframe.R_AB)}), "
-        "increments to steady flight",
+        "increments to steady flight; the peaks of a row are not of one instant",
     )
 
 

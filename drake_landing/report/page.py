@@ -14,6 +14,8 @@ from markupsafe import Markup
 
 from fem.files.aside import write_aside
 
+_LONG = 24  # letters of a word
+
 
 @dataclass(frozen=True, kw_only=True)
 class Cell:
@@ -21,6 +23,11 @@ class Cell:
 
     text: str
     number: bool = False
+
+    @property
+    def long(self) -> bool:
+        """Whether a word may have to be broken to fit a page."""
+        return max(map(len, self.text.split()), default=0) > _LONG
 
 
 @dataclass(frozen=True, kw_only=True)

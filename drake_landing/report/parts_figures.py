@@ -118,10 +118,15 @@ def root_histories(
                     color=INK,
                     label=STATIC,
                 )
-            finish(axes, f"{where}: {quantity}", unit)
+            finish(axes, f"{_part(name, where)}: {quantity}", unit)
             axes.set_xlim(found.time[0], found.time[-1])
         legend(figure, grid[0][0])
         return svg(figure, f"section loads over time, {name}")
+
+
+def _part(name: str, where: str) -> str:
+    """Name and cut, once where a part is named by its cut."""
+    return name if where in name else f"{name} at {where}"
 
 
 def _without_rounding(named: Float64) -> Float64:

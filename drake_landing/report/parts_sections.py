@@ -113,7 +113,8 @@ def _stresses(
     text += (
         "The stresses are increments to steady flight. "
         if total is None
-        else "The stress of steady flight is included; the increment alone stands "
+        else f"The stress of steady flight ({_steady(result)}) is included; the "
+        "largest increment of the landing alone, of any element and instant, stands "
         "beside it. "
     )
     if len(axial):
@@ -133,6 +134,18 @@ def _stresses(
         text=text + unable,
         blocks=blocks,
     )
+
+
+def _steady(result: "ProcessResult") -> str:
+    """Which loads make the stress of steady flight."""
+    steady = result.case.airframe.steady
+    if steady is None:
+        return "weight and the lift distribution of the built-in model at 1 g"
+    if steady.nodes:
+        return "weight and lift over the nodes of airframe.steady at 1 g"
+    source = steady.file.name if steady.file else "the deck"
+    which = "all loads" if steady.load is None else f"LOAD {steady.load}"
+    return f"weight at 1 g and {which} of {source}"
 
 
 def _axial(axial: pd.DataFrame) -> Block:
@@ -192,7 +205,7 @@ def _section_loads(result: "ProcessResult") -> Section:
         title="Section loads",
         text="Load case: the landing, as increments to steady flight. Elements that "
         "cross a plane are cut; a section load is the resultant of the gears' loads "
-        "and of the inertia of what then hangs on the outer side. Shear is upward, "
+        "and of the inertia of all that lies on the outer side. Shear is upward, "
         "bending lifts the outer end, torsion turns about the outward direction (of "
         "vertical parts shear and bending are to starboard); their axes in the deck "
         "stand in the table. Moments refer to a point of each cut, in the table: "

@@ -51,8 +51,9 @@ def _trust(result: "ProcessResult") -> str:
         f"gear loads {_grade(load)} (modes left out: {_share(load)}); section loads "
         "and stresses come from the full model under these loads, "
         f"{_grade(max(load, result.step.error))} (time step: "
-        f"{_share(result.step.error)}); accelerations of the multibody model alone "
-        f"{_grade(off)} ({_share(off)} off the full model at the worst point, "
+        f"{_share(result.step.error)} of the peak accelerations expected); "
+        f"accelerations of the multibody model alone {_grade(off)} (against the full "
+        f"model {_share(off)} rms, all axes together, at the worst point, "
         f"{point.replace('_', ' ')})"
     )
 
@@ -85,15 +86,15 @@ def _gear_loads(result: "ProcessResult") -> str:
 
 
 def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:
-    """Largest bending of the parts that carry most."""
+    """Largest bending of the parts that carry most, over time and all cuts."""
     found = result.parts
     rows = []
     for name, cuts in found.cuts.items():
-        at = found.looked_at[name]
-        bending = cuts.named(found.landing.sections[name][:, at])[:, 1]
-        k = int(np.argmax(np.abs(bending)))
+        bending = cuts.named(found.landing.sections[name])[:, :, 1]
+        k, at = np.unravel_index(np.argmax(np.abs(bending)), bending.shape)
+        value = bending[k, at]
         place = f"{cuts.beam.axis} = {cuts.beam.stations[at]:z.2f} m"
-        rows.append((abs(bending[k]), name, place, bending[k], found.time[k]))
+        rows.append((abs(value), name, place, value, found.time[k]))
     rows.sort(key=lambda row: -row[0])
     said = [
         f"{name if place in name else f'{name} at {place}'} {value / 1e3:z.1f} kN m "
@@ -101,7 +102,8 @@ def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:
         for _, name, place, value, time in rows[:_SHOWN]
     ]
     if said:
-        yield "largest bending", "; ".join(said) + "; increments to steady flight"
+        text = f"{'; '.join(said)}; of the cuts made, increments to steady flight"
+        yield "largest bending", text
 
 
 def _stresses(result: "ProcessResult") -> Iterator[tuple[str, str]]:
@@ -159,7 +161,7 @@ def _to_look_at(result: "ProcessResult") -> Iterator[str]:
         yield f"the energy audit misses {missed / 1e3:.1f} kJ"
     bars = int(result.parts.judged.axial_only.sum())
     if bars:
-        yield f"{bars} bars without stress recovery points: their section loads count"
+        yield f"{bars} bars without stress recovery points: see the section loads"
     if result.notices:
         count = len(result.notices)
         yield f"{count} notice{'s' * (count > 1)} at the end"
