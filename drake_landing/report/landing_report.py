@@ -275,8 +275,8 @@ def _accelerations(result: "ProcessResult") -> Section:
         f"deck ({deck_axes(result.airframe.R_AB)}); components that vanish by symmetry "
         "are left out. The transient has the modes above the last of the multibody "
         "model too: beside its raw peaks stand those low-passed at "
-        f"{result.airframe.highest_hz:.0f} Hz (Butterworth, forward and back: no phase, "
-        "and peaks may grow a little).",
+        f"{result.airframe.highest_hz:.0f} Hz (Butterworth, forward and back: no "
+        "phase, and peaks may grow a little).",
         blocks=[
             *(Block(svg=picture) for picture in pictures if picture),
             table_block(
