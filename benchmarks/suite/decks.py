@@ -123,4 +123,5 @@ def _ours(deck: Path) -> tuple[dict[Name, Table], float]:
         structure = Structure(model)
         write_op2(results, structure, path)
         xyz = structure.points.xyz
-        return read_op2(path), float(np.linalg.norm(np.ptp(xyz, axis=0)))
+        size = np.ptp(xyz, axis=0) if len(xyz) else np.full(3, np.inf)
+        return read_op2(path), float(np.linalg.norm(size))

@@ -148,8 +148,9 @@ def _what(item: Field) -> str:
     return word or " or ".join(names)
 
 
-STATIC_LOADS = tuple(
-    card.name for card in static_loads.RECORDS if card.has_table and card.name != "LOAD"
+STATIC_LOADS = (
+    *(c.name for c in static_loads.RECORDS if c.has_table and c.name != "LOAD"),
+    "DAREA",
 )
 
 

@@ -17,7 +17,6 @@ from pyNastran.bdf.cards.bdf_tables import TABDMP1, TABLED1
 from pyNastran.bdf.cards.elements.rigid import RBE3
 from pyNastran.bdf.cards.properties.beam import PBEAM
 from pyNastran.bdf.cards.properties.bush import PBUSH
-from pyNastran.bdf.cards.properties.shell import PCOMP, PCOMPG
 
 from fem.arrays import Int64
 from fem.deck.case_control import CaseControl, read_case_control
@@ -42,8 +41,6 @@ from fem.errors import InputError
 _CLASSES: dict[str, Any] = {
     "PBEAM": PBEAM,
     "PBUSH": PBUSH,
-    "PCOMP": PCOMP,
-    "PCOMPG": PCOMPG,
     "RBE3": RBE3,
     "TABLED1": TABLED1,
     "TABDMP1": TABDMP1,

@@ -1,4 +1,4 @@
-"""Forces and moments at points: FORCE, FORCE1, FORCE2, MOMENT..., SLOAD.
+"""Forces and moments at points: FORCE, FORCE1, FORCE2, MOMENT..., SLOAD, DAREA.
 
 Each function returns rows of the g-set and values in the displacement frames, to be
 added up; a set may hold several cards for one freedom.
@@ -86,6 +86,12 @@ def _at_scalar_points(points: Points, rows: pd.DataFrame) -> Terms:
     return points.dof(ids, 0), rows["f"].to_numpy(np.float64)
 
 
+def _at_freedoms(points: Points, rows: pd.DataFrame) -> Terms:
+    """DAREA; in statics it counts as the FORCE, MOMENT or SLOAD that it stands for."""
+    ids, components = (rows[name].to_numpy(np.int64) for name in ("id", "c"))
+    return points.dof(ids, components), rows["a"].to_numpy(np.float64)
+
+
 CONCENTRATED: dict[str, Callable[[Points, pd.DataFrame], Terms]] = {
     "FORCE": lambda points, rows: _by_components(points, rows, "f", 0),
     "MOMENT": lambda points, rows: _by_components(points, rows, "m", 3),
@@ -94,4 +100,5 @@ CONCENTRATED: dict[str, Callable[[Points, pd.DataFrame], Terms]] = {
     "FORCE2": lambda points, rows: _along_normal(points, rows, "f", 0),
     "MOMENT2": lambda points, rows: _along_normal(points, rows, "m", 3),
     "SLOAD": _at_scalar_points,
+    "DAREA": _at_freedoms,
 }

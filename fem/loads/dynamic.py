@@ -13,6 +13,7 @@ from fem.deck.case_control import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points
+from fem.loads.concentrated import CONCENTRATED
 from fem.loads.element_loads import ElementLoads, below_each_other, side_by_side
 from fem.loads.static import CARDS, static_element_loads, static_load
 from fem.loads.time_functions import Delayed, Pulse, Table, TimeFunction
@@ -206,18 +207,18 @@ def _pattern(
 ) -> Float64:
     """Spatial distribution (size,) that EXCITEID stands for."""
     excite = int(row["exciteid"])
-    total = np.zeros(points.size)
-    darea = deck.cards["DAREA"]
-    darea = darea[darea["sid"] == excite]
-    dof = points.dof(darea["id"].to_numpy(np.int64), darea["c"].to_numpy(np.int64))
-    np.add.at(total, dof, darea["a"].to_numpy(np.float64))
     lids = _static_sets(deck, subcase.loadset, excite)
+    darea = deck.cards["DAREA"]
+    # Without LOADSET it is one of the loads of the static set.
+    darea = darea[(darea["sid"] == excite) & bool(subcase.loadset)]
     if darea.empty and not lids:
         raise InputError(
             f"{where(name, row)}: EXCITEID {excite} has no DAREA"
             + (f" and no LSEQ in LOADSET {subcase.loadset}" if subcase.loadset else "")
             + ", no static load of that number"
         )
+    total = np.zeros(points.size)
+    np.add.at(total, *CONCENTRATED["DAREA"](points, darea))
     for lid in lids:
         total += static_load(deck, points, lid, mass_gg)
     return total

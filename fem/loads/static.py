@@ -14,7 +14,7 @@ from fem.geometry.points import Points
 from fem.loads.bar_loads import bar_loads, loads_of_bars
 from fem.loads.concentrated import CONCENTRATED
 from fem.loads.element_loads import ElementLoads, below_each_other
-from fem.loads.inertial import ACCELERATIONS, accelerations
+from fem.loads.inertial import ACCELERATIONS, accelerations, spinning_masses
 from fem.loads.pressure import pload, pload2, pload4
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
     return factors
 
 
-_SETS = (*CARDS, "SPCD", "DAREA")
+_SETS = (*CARDS, "SPCD")
 
 
 def static_load(
@@ -84,6 +84,8 @@ def static_load(
                 continue
             if name in ACCELERATIONS:
                 field += factor * accelerations(points, name, rows)
+                if name == "RFORCE":
+                    total += factor * spinning_masses(deck, points, rows)
             else:
                 dof, values = _terms(deck, points, name, rows)
                 if not np.isfinite(values).all():

@@ -209,6 +209,10 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
     _check(materials.problem(int(m), PLATE, name) for m in dict.fromkeys(mids))
     laminate = _stack(row, materials, symmetric=lam.startswith("SY"))
     a, b, d = laminate.stiffness()
+    shear = laminate.transverse_flexibility()
+    if lam.endswith(("SMEAR", "BEND")):
+        # The PSHELL that stands for it has no MID3.
+        shear = 0.0 * shear
     if lam.endswith("SMEAR"):
         b, d = 0.0 * b, a * laminate.total**2 / 12.0
     elif lam.endswith("MEM"):
@@ -225,7 +229,7 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
         membrane=a,
         coupling=b,
         bending=d,
-        shear_flexibility=laminate.transverse_flexibility(),
+        shear_flexibility=shear,
         nominal=laminate.total,
         thickness=laminate.total,
         inertia_ratio=1.0,

@@ -51,31 +51,6 @@ def pbush(card: Any) -> Rows:
     return [{**row, "ks": six(card.Ki), "bs": six(card.Bi), "ges": six(card.GEi)}]
 
 
-def pcomp(card: Any) -> Rows:
-    count, thickness = len(card.mids), float(np.sum(card.thicknesses))
-    mirrored = 2.0 if (card.lam or "").startswith("SYM") else 1.0
-    plies = getattr(card, "global_ply_ids", range(1, count + 1))
-    if not all(t and t > 0.0 for t in card.thicknesses):
-        raise Malformed("ply thickness T: expected positive numbers")
-    return [
-        {
-            "pid": card.pid,
-            "z0": -0.5 * mirrored * thickness if card.z0 is None else float(card.z0),
-            "nsm": card.nsm or 0.0,
-            "sb": card.sb or 0.0,
-            "ft": card.ft or "",
-            "tref": card.tref or 0.0,
-            "ge": card.ge or 0.0,
-            "lam": card.lam or "",
-            "mids": np.array(card.mids, dtype=np.int64),
-            "ts": np.array(card.thicknesses, dtype=np.float64),
-            "thetas": np.array(card.thetas, dtype=np.float64),
-            "souts": tuple(card.souts),
-            "plies": np.array(plies, dtype=np.int64),
-        }
-    ]
-
-
 def rbe3(card: Any) -> Rows:
     terms = [
         (float(weight), comps, grid)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from fem.deck import conversions
-from fem.deck.cards import finish, from_pynastran, laminates
+from fem.deck.cards import finish, laminates
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 
 _GROUP = "Shells, panels"
@@ -175,7 +175,7 @@ RECORDS = (
     Card(
         name="PCOMP",
         group=_GROUP,
-        extract=from_pynastran.pcomp,
+        read=laminates.pcomp,
         more="pid:i z0:f[L] nsm:f[M/L2] sb:f[M/L] ft:s tref:f ge:f lam:s "
         f"mids:*>{_MATERIAL} ts:*[L] thetas:* souts:* plies:*",
         ids="shell property",
@@ -184,7 +184,7 @@ RECORDS = (
     Card(
         name="PCOMPG",
         group=_GROUP,
-        extract=from_pynastran.pcomp,
+        read=laminates.pcompg,
         table="PCOMP",
         extent="area",
     ),

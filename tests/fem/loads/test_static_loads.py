@@ -140,3 +140,36 @@ def test_resultants_do_not_depend_on_displacement_frames(loaded, kind, a, b):
     plain = loaded(bulk.format("")).resultant()
     turned = loaded(frame + bulk.format("9")).resultant()
     np.testing.assert_allclose(turned, plain, rtol=1e-9, atol=1e-7)
+
+
+def test_rotation_of_a_body_is_that_of_its_points(loaded):
+    """RFORCE with spin and angular acceleration: CONM2 against four point masses."""
+    places = np.array([[2.0, 0.5, 1.0], [1.0, -1.0, 2.0], [0.3, 2.0, 0.4], [3, 1, -1]])
+    mass = np.array([1.0, 2.0, 3.0, 1.5])
+    centre = mass @ places / mass.sum()
+    arm = places - centre
+    inertia = np.einsum("p,pk,pk->", mass, arm, arm) * np.eye(3)
+    inertia -= np.einsum("p,pi,pj->ij", mass, arm, arm)
+    d = centre - [1.0, 2.0, 3.0]
+    i = [inertia[0, 0], -inertia[1, 0], inertia[1, 1], -inertia[2, 0], -inertia[2, 1],
+         inertia[2, 2]]  # fmt: skip
+    spin = "RFORCE,1,1,,.4,1.,0.5,2.\n,.7\n"
+    body = f"CONM2,1,3,,{mass.sum()},{d[0]:.12g},{d[1]:.12g},{d[2]:.12g}\n,"
+    body += ",".join(f"{value:.12g}" for value in i)
+    whole = loaded(BASE + body + "\n" + spin)
+    points = "".join(
+        f"GRID,{11 + k},,{x},{y},{z}\nCONM2,{11 + k},{11 + k},,{m}\n"
+        for k, (m, (x, y, z)) in enumerate(zip(mass, places))
+    )
+    apart = loaded(BASE + points + spin)
+    np.testing.assert_allclose(whole.resultant(), apart.resultant(), rtol=1e-9)
+
+
+def test_darea_is_a_static_load(loaded):
+    """As MSC converts it to FORCE, MOMENT, SLOAD."""
+    result = loaded(
+        BASE + "DAREA,1,4,2,5.,2,6,3.\nDAREA,1,91,,7.\nFORCE,1,4,5,2.,0.,1.\n"
+    )
+    np.testing.assert_allclose(result.at(4)[:3], [0.0, 7.0, 0.0], atol=1e-12)
+    assert result.at(2)[5] == 3.0
+    assert result.load[result.points.dof(91, 0)] == 7.0

@@ -5,8 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fem.deck.reader import read_deck
 from fem.properties.elasticity import orthotropic_plane, plane_stress
 from fem.properties.laminate import Laminate
+from fem.properties.shells import read_shell_properties
 
 
 def laminate(thickness, angles, *, z0=None, plane=None, shear=None) -> Laminate:
@@ -131,3 +133,59 @@ def test_mass_height_of_an_unbalanced_stack():
     stack = laminate([0.001, 0.003], [0, 0], z0=0.0)
     assert stack.mass_height() == pytest.approx(0.002)
     assert laminate([0.001, 0.003], [0, 0]).mass_height() == 0.0
+
+
+def _of_deck(tmp_path, lam, z0="", card="PCOMP"):
+    number = ",{}" if card == "PCOMPG" else ""
+    plies = "\n".join(
+        f"{number.format(k)},1,.1,{angle},YES" for k, angle in ((1, 0.0), (2, 45.0))
+    )
+    deck = tmp_path / "laminate.bdf"
+    deck.write_text(
+        f"SOL 101\nCEND\nBEGIN BULK\n{card},1,{z0},,,,,,{lam}\n{plies}\n"
+        "MAT8,1,1.+11,1.+10,.3,5.+9,4.+9,3.+9,1500.\nGRID,1\nGRID,2,,1.\n"
+        "GRID,3,,1.,1.\nGRID,4,,0.,1.\nCQUAD4,1,1,1,2,3,4\nENDDATA\n"
+    )
+    return read_shell_properties(read_deck(deck), [1])[1]
+
+
+@pytest.mark.parametrize("card", ["PCOMP", "PCOMPG"])
+def test_options_of_a_laminate(tmp_path, card):
+    """LAM: which of A, B, D and transverse shear the PSHELL behind it has (MSC).
+
+    A symmetric stack has its bottom half of the whole thickness down, in all options.
+    """
+    plain = _of_deck(tmp_path, "", card=card)
+    whole = _of_deck(tmp_path, "SYM", card=card)
+    a, d = plain.membrane, whole.bending
+    smeared = a * 0.2**2 / 12.0
+    expected = {
+        "MEM": (a, 0.0), "BEND": (0.0, plain.bending), "SMEAR": (a, smeared),
+        "SYMEM": (2 * a, 0.0), "SYBEND": (0.0, d), "SYSMEAR": (2 * a, 8 * smeared),
+    }  # fmt: skip
+    assert np.abs(plain.coupling).max() > 0.0
+    assert not whole.coupling.any()
+    for lam, (membrane, bending) in expected.items():
+        found = _of_deck(tmp_path, lam, card=card)
+        np.testing.assert_allclose(found.membrane, membrane + 0 * a, rtol=1e-9)
+        np.testing.assert_allclose(found.bending, bending + 0 * a, rtol=1e-9, atol=1e-3)
+        assert not found.coupling.any()
+        assert found.shear_flexibility.any() == lam.endswith("MEM")
+        assert found.fibre[1] == -found.fibre[0] == found.thickness / 2
+    moved = _of_deck(tmp_path, "SYM", z0="0.", card=card)
+    steiner = d + whole.membrane * 0.2**2
+    np.testing.assert_allclose(moved.bending, steiner, rtol=1e-9)
+
+
+def test_blank_plies_repeat_the_ply_before(tmp_path):
+    """Blank MID and T are those before; groups that are all blank are no plies."""
+    deck = tmp_path / "laminate.bdf"
+    deck.write_text(
+        "SOL 101\nCEND\nBEGIN BULK\nPCOMP,1\n,1,.1,0.,YES,,,90.,YES\n,,,,,2,.2\n"
+        "MAT8,1,1.+11,1.+10,.3,5.+9\nMAT1,2,7.+10,,.3\nGRID,1\nENDDATA\n"
+    )
+    row = read_deck(deck).cards["PCOMP"].iloc[0]
+    assert row.mids.tolist() == [1, 1, 2]
+    assert row.ts.tolist() == [0.1, 0.1, 0.2]
+    assert row.thetas.tolist() == [0.0, 90.0, 0.0]
+    assert row.z0 == pytest.approx(-0.2)
