@@ -17,7 +17,8 @@ from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam, Cutter, axis_name
 from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.places import Panel, Places
 from drake_landing.parts.section_point import crossing
-from fem.errors import InputError
+from fem.errors import InputError, nearest
+from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 
@@ -48,61 +49,72 @@ def places_of(
         InputError: grids that do not exist, cuts that do not go outward.
     """
     structure = cutter.structure
-    beams = tuple(_named(cutter, parts.beams, R_AB, elements))
+    named = [_beam(given, R_AB) for given in parts.beams]
+    problems = [*_inward(parts.beams, named), *_absent(parts, structure)]
+    if problems:
+        raise InputError(problems)
+    beams = tuple(b for beam in named for b in _found(cutter, beam, elements))
     if not beams and known is None:
         beams = beams_of_branches(cutter, R_AB, loaded, elements)
     panels = tuple(
         Panel(name=p.name, grid=p.grid, beside=p.beside) for p in parts.panels
     )
-    found = Places(
+    return Places(
         beams=beams or (known.beams if known else ()),
         panels=panels or (known.panels if known else ()),
         equipment=parts.equipment
         or (known.equipment if known and known.equipment else dict(monitoring)),
     )
-    missing = {
-        g: purpose
-        for g, purpose in found.grids.items()
-        if g not in structure.points.grid_id
-    }
-    if missing:
-        raise InputError(
-            f"{purpose}: grid {g} is not in {structure.deck.path}"
-            for g, purpose in missing.items()
-        )
-    return found
 
 
-def _named(
-    cutter: Cutter,
-    beams: Sequence[settings.Beam],
-    R_AB: Float64,
-    elements: Inventory,
-) -> Iterator[Beam]:
-    """Beams of a case; one that names no box takes each connected piece for itself.
+def _absent(parts: settings.Parts, structure: Structure) -> Iterator[str]:
+    """Grids of a case that the deck does not have."""
+    there = set(structure.points.grid_id.tolist())
+    grids = [
+        *((f"parts.beams: {b.name}", b.grid) for b in parts.beams if b.grid),
+        *(
+            (f"parts.panels: {p.name}", grid)
+            for p in parts.panels
+            for grid in (p.grid, *p.beside)
+        ),
+        *((f"parts.equipment.{name}", grid) for name, grid in parts.equipment.items()),
+    ]
+    for purpose, grid in grids:
+        if grid not in there:
+            yield f"{purpose}: grid {grid} is not in {structure.deck.path}" + nearest(
+                str(grid), [str(g) for g in sorted(there)], 0.8
+            )
 
-    Raises:
-        InputError: the last cut does not lie outward of the first.
-    """
-    for given in beams:
-        boxes = tuple((w.x or ANY, w.y or ANY, w.z or ANY) for w in given.within)
-        line = None if given.line is None else np.array(given.line, float)
-        beam = Beam(
-            name=given.name,
-            outward=given.outward,
-            stations=np.linspace(given.first, given.last, given.count),
-            tips=() if given.grid is None else (given.grid,),
-            boxes=boxes or (EVERYWHERE,),
-            line=line,
-            R_AB=R_AB,
-        )
+
+def _beam(given: settings.Beam, R_AB: Float64) -> Beam:
+    boxes = tuple((w.x or ANY, w.y or ANY, w.z or ANY) for w in given.within)
+    return Beam(
+        name=given.name,
+        outward=given.outward,
+        stations=np.linspace(given.first, given.last, given.count),
+        tips=() if given.grid is None else (given.grid,),
+        boxes=boxes or (EVERYWHERE,),
+        line=None if given.line is None else np.array(given.line, float),
+        R_AB=R_AB,
+    )
+
+
+def _inward(beams: Sequence[settings.Beam], named: Sequence[Beam]) -> Iterator[str]:
+    """Beams whose last cut does not lie outward of the first."""
+    for given, beam in zip(beams, named):
         if np.any(np.diff(beam.along) <= 0.0):
-            raise InputError(
+            yield (
                 f"parts.beams: {given.name}: first {given.first:g} and last "
                 f"{given.last:g}: the last cut must lie {given.outward} of the first, "
                 f"which is toward {axis_name(beam.direction)} in the deck's axes"
             )
-        yield from [beam] if boxes or beam.tips else _pieces(cutter, beam, elements)
+
+
+def _found(cutter: Cutter, beam: Beam, elements: Inventory) -> Sequence[Beam]:
+    """A beam that names no box takes each connected piece for itself."""
+    if beam.boxes != (EVERYWHERE,) or beam.tips:
+        return [beam]
+    return _pieces(cutter, beam, elements)
 
 
 def _pieces(cutter: Cutter, beam: Beam, elements: Inventory) -> Sequence[Beam]:

@@ -1,7 +1,7 @@
 """All elements of a deck with what is told of them: component, place, material."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar
 
@@ -11,9 +11,11 @@ import pandas as pd
 
 from drake_landing.case import parts as settings
 from drake_landing.parts.components import members
+from drake_landing.parts.ply_strength import laminate_limits
 from drake_landing.show.comments import KINDS, component_names, read_names
 from fem.deck.grids import grids_of
 from fem.deck.records import CARDS, TABLES, topologies
+from fem.errors import InputError, nearest
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
@@ -34,10 +36,12 @@ class Inventory:
         elements: one row each, ascending `id`; columns `card`, `pid`, `component`,
             `material` (0: none of its own), `x`, `y`, `z` (middle of its grids, B, m),
             `allowed` (stress, Pa; NaN where unknown).
+        allowables: material id -> Pa, as the case gives them.
         kinds: components that are kinds of elements, where a deck names none.
     """
 
     elements: pd.DataFrame
+    allowables: Mapping[int, float] = field(default_factory=dict)
     kinds: ClassVar[frozenset[str]] = frozenset(KINDS.values()) | {LAMINATES}
 
     @property
@@ -64,9 +68,14 @@ def inventory(
     Args:
         structure: of the deck.
         components: by name, of the case; what they leave is named by the deck.
-        allowables: material id -> Pa; for others ST of MAT1, where it is given.
+        allowables: material id -> Pa; for others ST of MAT1 and, in laminates, the
+            strengths of MAT8 and SB, where they are given (`ply_strength`).
+
+    Raises:
+        InputError: allowables and components of what the deck does not have.
     """
     cards = structure.deck.cards
+    problems = _unknown_materials(cards, allowables)
     tables = [
         _table(card, cards[card], grids_of(cards[card], topology))
         for card, topology in topologies("line", "surface", "solid").items()
@@ -82,14 +91,39 @@ def inventory(
         Inventory.kinds
     )
     elements.loc[laminates, "component"] = LAMINATES
-    of_property = _materials(cards)
+    limits = laminate_limits(structure.deck, allowables)
+    references = {pid: limit.reference for pid, limit in limits.items()}
+    of_property = _materials(cards) | {pid: mid for pid, (mid, _) in references.items()}
     elements["material"] = [of_property.get(pid, 0) for pid in elements.pid]
-    for name, own in members(structure, elements, components or {}).items():
-        elements.loc[own, "component"] = name
+    try:
+        for name, own in members(structure, elements, components or {}).items():
+            elements.loc[own, "component"] = name
+    except InputError as error:
+        problems += error.problems
+    if problems:
+        raise InputError(problems)
     known = _strengths(cards) | dict(allowables)
-    elements["allowed"] = [known.get(mid, np.nan) for mid in elements.material]
+    elements["allowed"] = [
+        references[pid][1] if pid in references else known.get(mid, np.nan)
+        for pid, mid in zip(elements.pid, elements.material)
+    ]
     elements = elements.drop(columns=["file", "line"]).sort_values("id")
-    return Inventory(elements=elements.reset_index(drop=True))
+    elements = elements.reset_index(drop=True)
+    return Inventory(elements=elements, allowables=dict(allowables))
+
+
+def _unknown_materials(
+    cards: Mapping[str, pd.DataFrame], allowables: Mapping[int, float]
+) -> list[str]:
+    """Allowables of materials that are not there."""
+    names = [name for name in cards if name.startswith("MAT") and "mid" in cards[name]]
+    known = {int(mid) for name in names for mid in cards[name].mid}
+    return [
+        f"parts.allowables.{mid}: the deck has no material {mid}"
+        + nearest(str(mid), [str(k) for k in sorted(known)])
+        for mid in allowables
+        if mid not in known
+    ]
 
 
 def sheet_material(row: Mapping[str, float], isotropic: Mapping[int, object]) -> int:

@@ -3,8 +3,9 @@
     sheets      von Mises, the larger of both fibres. The stress is that of the sheet
                 itself, from its strains: a skin with stringers smeared into its
                 membrane has resultants that are not its own
-    laminates   von Mises of the isotropic plies; where there are none, the largest
-                principal stress of any ply
+    laminates   by the strengths of their plies, where MAT8 or SB give any
+                (`ply_strength`); else von Mises of the isotropic plies; where there are
+                none, the largest principal stress of any ply
     bars        largest magnitude of the direct stress at the stress points, or axial;
                 where no stress points are given the axial stress is not the worst of a
                 bar that bends: `axial_only`
@@ -15,7 +16,7 @@ on displacements of the g-set, then a few array operations; during a transient a
 does both (`stress_extremes`).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 
@@ -25,6 +26,7 @@ import pandas as pd
 import scipy.sparse as sp
 
 from drake_landing.parts.inventory import sheet_material
+from drake_landing.parts.ply_strength import LaminateLimit, laminate_limits
 from fem.algebra.sparse_products import shape_of
 from fem.elements.block import Detail, ElementBlock, Kind
 from fem.elements.lines.bar import Bar
@@ -90,10 +92,12 @@ class Stresses:
         parts: elements of one kind each.
         expand: (g, f) g-set from the free set.
         without_points: ids, see `without_stress_points`.
+        limits: what laminates are measured against, in words.
     """
 
     parts: tuple[StressPart, ...]
     expand: sp.csr_matrix = field(repr=False)
+    limits: str = ""
     without_points: Int64 = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @cached_property
@@ -115,19 +119,29 @@ class Stresses:
         return np.concatenate([part.of(moved) for part in self.parts], axis=1)
 
 
-def stresses(structure: Structure) -> Stresses:
-    """Linear maps of all elements with stresses."""
+def stresses(
+    structure: Structure, allowables: Mapping[int, float] | None = None
+) -> Stresses:
+    """Linear maps of all elements with stresses.
+
+    Args:
+        structure: of the deck.
+        allowables: material id -> Pa, of the case, before those of the deck.
+    """
+    limits = laminate_limits(structure.deck, allowables or {})
     found: list[StressPart] = []
     for block in structure.blocks:
-        if isinstance(block, Shell):
-            make = _laminates if block.property_card == "PCOMP" else _sheets
-            found.append(make(structure, block))
+        if isinstance(block, Shell) and block.property_card == "PCOMP":
+            found += _laminated(structure, block, limits)
+        elif isinstance(block, Shell):
+            found.append(_sheets(structure, block))
         else:
             found += _printed(structure, block)
     return Stresses(
         parts=tuple(found),
         expand=structure.elimination.T,
         without_points=without_stress_points(structure),
+        limits=repr(limits) if limits else "",
     )
 
 
@@ -176,6 +190,64 @@ def _sheets(structure: Structure, block: Shell) -> StressPart:
     operator = taken @ (_blocks(np.repeat(elastic, count, axis=0)) @ strain.operator)
     operator = operator + left @ stress.operator
     return _shell_part(block, operator, np.ones(len(material), bool))
+
+
+def _laminated(
+    structure: Structure, block: Shell, limits: Mapping[int, LaminateLimit]
+) -> list[StressPart]:
+    """Those with strengths of plies, and the others."""
+    judged = np.isin(block.pid, list(limits))
+    parts = []
+    if judged.any():
+        parts.append(
+            _by_strength(structure, block.take(np.flatnonzero(judged)), limits)
+        )
+    if not judged.all():
+        parts.append(_laminates(structure, block.take(np.flatnonzero(~judged))))
+    return parts
+
+
+def _by_strength(
+    structure: Structure, block: Shell, limits: Mapping[int, LaminateLimit]
+) -> StressPart:
+    """Use of the strengths, from the stresses of all plies."""
+    table = _table(structure.points, block, "stress", Detail())
+    recovery = table.parts[0]
+    assert isinstance(recovery, PlyRecovery)
+    maps = np.nan_to_num(np.stack(recovery.maps))[recovery.laminate]
+    pids = block.pid[np.unique(recovery.laminate, return_index=True)[1]]
+    of_laminate = dict(zip(np.unique(recovery.laminate).tolist(), pids.tolist()))
+    size, k = len(block.id), maps.shape[1]
+    pieces = []
+    for start in range(0, size, _PIECE):
+        stop = min(start + _PIECE, size)
+        own = recovery.laminate[start:stop]
+        groups = [(limits[of_laminate[n]], own == n) for n in np.unique(own).tolist()]
+        pieces.append(
+            StressPiece(
+                elements=slice(start, stop),
+                rows=slice(start * k, stop * k),
+                evaluate=partial(_use, groups=groups),
+            )
+        )
+    operator = sp.csr_matrix(_blocks(maps) @ table.operator)
+    return StressPart(id=block.id, operator=operator, pieces=tuple(pieces))
+
+
+def _use(
+    linear: Float64, groups: Sequence[tuple[LaminateLimit, npt.NDArray[np.bool_]]]
+) -> Float64:
+    """Measures from the ply stresses; the equivalent one by `LaminateLimit.use`."""
+    count = len(groups[0][1])
+    ply = linear.reshape(*linear.shape[:-1], count, -1, 5)
+    xx, yy, xy = np.moveaxis(ply[..., :3], -1, 0)
+    centre, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+    equivalent = np.zeros(ply.shape[:-2])
+    for limit, those in groups:
+        of_one = limit.use(ply[..., those, :, :]) * limit.reference[1]
+        equivalent[..., those] = of_one
+    high, low = (centre + radius).max(axis=-1), (centre - radius).min(axis=-1)
+    return np.stack([equivalent, high, low], axis=-1)
 
 
 def _laminates(structure: Structure, block: Shell) -> StressPart:

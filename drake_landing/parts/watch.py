@@ -123,7 +123,7 @@ class PartsWatch:
     ) -> None:
         structure = cutter.structure
         self.places, self.elements = places, elements
-        self.stresses: Stresses = stresses(structure)
+        self.stresses: Stresses = stresses(structure, elements.allowables)
         self._averaged = averaged
         self._rows = elements.of(self.stresses.id)
         self.components, group = np.unique(self._rows.component, return_inverse=True)
@@ -170,7 +170,7 @@ class PartsWatch:
         s = self._stress
         maps = [self.stresses.expand, *(p.operator for p in self.stresses.parts)]
         operators = [seen.operator for seen in self._moved().values()]
-        return [maps, operators, *s.content]
+        return [maps, operators, self.stresses.limits, *s.content]
 
     def arrays(self) -> dict[str, npt.NDArray]:
         """All that was found, for `restore`."""

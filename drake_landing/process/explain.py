@@ -37,6 +37,7 @@ from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.conditions import condition_figures
+from drake_landing.process.full_response import parts_looked_at
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import (
     StepError,
@@ -84,6 +85,8 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         check_mass(structure)
         check_units(structure, aircraft)
         remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
+        nodes = np.array(sorted(aircraft.attachment_nodes), dtype=np.int64)
+        parts_looked_at(case, aircraft, structure, nodes)
         cost, step, truncated, refused = None, None, "", None
         if thorough or structure.size <= _AT_ONCE:
             check_free_flight(structure)

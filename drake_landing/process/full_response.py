@@ -15,7 +15,8 @@ from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.case_places import places_of
 from drake_landing.parts.cuts import Cutter
-from drake_landing.parts.inventory import inventory
+from drake_landing.parts.inventory import Inventory, inventory
+from drake_landing.parts.places import Places
 from drake_landing.parts.slices import (
     Balanced,
     balanced,
@@ -29,6 +30,7 @@ from drake_landing.transient.extremes import OfFirstCase, element_envelopes
 from drake_landing.transient.kept import Response, kept_response, response_key
 from drake_landing.transient.practices import Practices, compare_practices
 from drake_landing.transient.response import transient_response
+from fem.errors import InputError
 from fem.model.structure import Structure
 from fem.recovery.envelope import Envelope
 from fem.response.direct import TransientRun
@@ -145,6 +147,42 @@ def _static(
     return steady, still.take(slice(flights, None)) if instants else None
 
 
+def parts_looked_at(
+    case: Case, aircraft: Aircraft, structure: Structure, loaded: Int64
+) -> tuple[Cutter, Inventory, Places]:
+    """What a case means by its components and places, before anything is computed.
+
+    Args:
+        case, aircraft: of the run.
+        structure: the full model.
+        loaded: (k,) nodes that loads act on.
+
+    Raises:
+        InputError: components, cuts or grids that the deck does not have.
+    """
+    cutter, problems = Cutter(structure), []
+    try:
+        elements = inventory(structure, case.parts.allowables, case.parts.components)
+    except InputError as error:
+        problems += error.problems
+        elements = inventory(structure, {})
+    try:
+        places = places_of(
+            cutter,
+            case.parts,
+            rotation_AB(case.airframe.axes),
+            aircraft.monitoring,
+            aircraft.known_places(structure),
+            elements,
+            loaded.tolist(),
+        )
+    except InputError as error:
+        raise InputError([*problems, *error.problems]) from None
+    if problems:
+        raise InputError(problems)
+    return cutter, elements, places
+
+
 def parts_watch(
     case: Case,
     aircraft: Aircraft,
@@ -155,24 +193,13 @@ def parts_watch(
     """What is looked at in transients of a case.
 
     Args:
-        case, aircraft: of the run.
-        structure: the full model.
-        loaded: (k,) nodes that loads act on.
+        case, aircraft, structure, loaded: see `parts_looked_at`.
         steady: (f,) displacements of steady flight, None: not known.
     """
-    cutter = Cutter(structure)
-    elements = inventory(structure, case.parts.allowables, case.parts.components)
+    cutter, elements, places = parts_looked_at(case, aircraft, structure, loaded)
     return PartsWatch(
         cutter,
-        places_of(
-            cutter,
-            case.parts,
-            rotation_AB(case.airframe.axes),
-            aircraft.monitoring,
-            aircraft.known_places(structure),
-            elements,
-            loaded.tolist(),
-        ),
+        places,
         elements,
         list(aircraft.monitoring.values()),
         loaded,

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from fem.arrays import Float64
+from fem.arrays import Float64, Int64
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +42,7 @@ class ShellSection:
     mass_height: Float64
     ge: Float64
 
-    def take(self, which: slice) -> "ShellSection":
+    def take(self, which: slice | Int64) -> "ShellSection":
         """The section of some elements."""
         chosen = {k: (None if v is None else v[which]) for k, v in vars(self).items()}
         return replace(self, **chosen)

@@ -40,7 +40,7 @@ from functools import cached_property
 
 import numpy as np
 
-from fem.arrays import Float64
+from fem.arrays import Float64, Int64
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.preload import of_gradients, symmetric_plane
 from fem.elements.shells.quadratic_surface import (
@@ -286,12 +286,13 @@ class CurvedShell(Shell):
             add_turning(total, tip, self.offset[:, None, None] * self.directors)
         return total
 
-    def take(self, part: slice) -> "CurvedShell":
+    def take(self, part: slice | Int64) -> "CurvedShell":
         """Some of the elements."""
-        names = ("id", "dof", "pid", "corners", "offset", "normals", "which", "angle")
         own = ("nodes", "corner_thickness", "theta", "towards")
-        chosen = {name: getattr(self, name)[part] for name in names + own}
-        return replace(self, section=self.section.take(part), **chosen)
+        chosen = {name: getattr(self, name)[part] for name in own}
+        taken = super().take(part)
+        assert isinstance(taken, CurvedShell)
+        return replace(taken, **chosen)
 
     def full_stiffness(self) -> Float64:
         """(e, 6 n, 6 n) of all elements at once."""

@@ -73,6 +73,12 @@ class Shell(DenseBlock):
         """(e,) area."""
         return self.shape.area
 
+    def take(self, part: slice | Int64) -> "Shell":
+        """Some of the elements."""
+        names = ("id", "dof", "pid", "corners", "offset", "normals", "which", "angle")
+        chosen = {name: getattr(self, name)[part] for name in names}
+        return replace(self, section=self.section.take(part), **chosen)
+
     def with_nonstructural_mass(self, per_area: Float64) -> "Shell":
         """The same shells with additional mass per area (e,)."""
         total = self.section.nonstructural + per_area

@@ -86,7 +86,7 @@ def test_cuts_follow_the_axes_of_the_deck(structure: Structure) -> None:
 
 def test_places_that_are_not_there_are_named(structure: Structure) -> None:
     parts = Parts(equipment={"galley": 777})
-    with pytest.raises(InputError, match=r"parts\.equipment: galley: grid 777"):
+    with pytest.raises(InputError, match=r"parts\.equipment\.galley: grid 777"):
         found(structure, parts)
 
 
