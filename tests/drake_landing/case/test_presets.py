@@ -162,6 +162,11 @@ def test_history_of_a_gear_has_its_peaks():
     for column in ("vertical", "drag", "stroke"):
         assert table[column].max() == peaks[column]
     assert table["vertical"].idxmax() == peaks["time"]
+    # Spring-back: the largest forward load on the airframe comes after spin-up.
+    change = table["fx"] - table["fx"].iloc[0]
+    assert peaks["spring_back"] == -change.min() > 0.0
+    assert change.idxmin() > table["drag"].idxmax()
+    assert peaks["spring_back"] < change.max()
     # Sprung and unsprung masses are between tyres and airframe.
     assert_allclose(table["fz"].max(), peaks["vertical"], rtol=0.15)
     with pytest.raises(ValueError, match="no gear 'main', expected one of nose, main"):
