@@ -117,6 +117,22 @@ def landing_speeds(conditions: Conditions, *, tail_down: bool) -> tuple[float, .
     return low, high if tail_down else LEVEL_FACTOR * high
 
 
+def landing_story(conditions: Conditions, mass: float) -> str:
+    """Sink rate and speeds of the landings, in words, or what they lack."""
+    try:
+        sink = sink_rate(conditions, mass)
+    except InputError as error:
+        return f"none: {error}"
+    level, down = (
+        " and ".join(f"{v:.1f}" for v in landing_speeds(conditions, tail_down=tail))
+        for tail in (False, True)
+    )
+    return (
+        f"{sink:.4g} m/s sink rate ({conditions.weight.replace('_', '-')} weight), "
+        f"level at {level} m/s, tail-down at {down} m/s"
+    )
+
+
 def _peak(history: LandingHistory, gear: str) -> Peak:
     vertical = history.leg(gear, "vertical")
     row = int(np.argmax(vertical.to_numpy()))

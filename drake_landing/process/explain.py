@@ -30,6 +30,7 @@ from drake_landing.cache import Cache
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.conditions.build import on_ground
+from drake_landing.conditions.peaks import landing_story
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
@@ -303,6 +304,10 @@ def _conditions(case: Case, aircraft: Aircraft, structure: Structure) -> Iterato
     body = rigid_airframe(structure, aircraft.multibody_nodes, R_AB)
     ground = on_ground(body, aircraft.gears, R_AB, case.conditions)
     rows = condition_figures(case.conditions, ground)
+    known = set(case.conditions.vertical) >= {gear.name for gear in aircraft.gears}
+    if not known:
+        mass = loaded(structure, aircraft.gears).mass
+        rows.insert(0, ("landings", landing_story(case.conditions, mass)))
     for i, (number, text) in enumerate(rows):
         yield _line("" if i else "conditions", f"{number:<16}{text}")
 

@@ -132,6 +132,13 @@ def test_mass_cases_of_the_reference_aircraft_fly_at_1_g(tmp_path, name):
     inertia = rigid.T @ (structure.mass @ rigid)
     motion = np.linalg.solve(inertia, force)
     assert motion == pytest.approx([0, 0, 9.80665, 0, 0, 0], abs=1e-5)
+    case = parse_case(text)
+    assert case.scenario.sink_rate == (1.8288 if name == "take_off" else 3.048)
+    if name == "take_off":  # the mass case of its source: 25.0 % of the chord
+        assert case.airframe.mac is not None
+        center = loaded(structure, aircraft.gears).center
+        share = case.airframe.mac.percent(center, np.eye(3))
+        assert share == pytest.approx(25.0, abs=0.1)
 
 
 def massset_deck(folder: Path) -> None:

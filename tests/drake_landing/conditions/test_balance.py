@@ -146,3 +146,14 @@ def test_check_lists_conditions_with_figures_and_what_cannot_apply():
     text = explain(tiny())
     assert "25.493(b)       2 cases: largest drag" in text
     assert "25.497          none: no tail wheel" in text
+
+
+def test_check_says_how_the_landings_are_flown():
+    """V_L1 = 50 m/s; V_L2 at 2000 m, ISA + 22.8 K: 57.4 m/s, level 1.25 of it."""
+    text = explain(tiny("\nconditions: {stall_speed: 50, altitude: 2000}\n"))
+    assert (
+        "landings        1.829 m/s sink rate (take-off weight), level at 50.0 and 71.8 "
+        "m/s, tail-down at 50.0 and 57.4 m/s" in text
+    )
+    lacking = explain(tiny("\nconditions: {rules: CS-23}\n"))
+    assert "landings        none: conditions.wing_area: found none" in lacking
