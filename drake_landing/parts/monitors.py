@@ -73,10 +73,8 @@ def stations(
     T = structure.elimination.T
     dof = structure.points.dof(np.array(loaded)[:, None], np.arange(1, 7)[None, :])
     pattern = sp.csr_matrix(structure.points.basic_rotation()[dof.reshape(-1)]).T
-    names = [p.name for p in found.points]
     made = []
-    for p in found.points:
-        name = p.name if names.count(p.name) == 1 else f"{p.name} ({p.card})"
+    for p, name in zip(found.points, _told_apart(found.points)):
         if p.outside is None:
             assert p.elastic is not None
             maps = {"of_displacement": sp.csr_matrix(p.elastic @ T)}
@@ -87,6 +85,18 @@ def stations(
             of_load = (p.outside @ pattern).toarray()
         made.append(Station(point=p, name=name, of_load=of_load, **maps))
     return tuple(made), found.notices
+
+
+def _told_apart(points: Sequence[MonitorPoint]) -> list[str]:
+    """Names, with the card or a number where several points have one."""
+    names = [p.name for p in points]
+    for same in (lambda p: f"{p.name} ({p.card})", None):
+        twice = {n for n in names if names.count(n) > 1}
+        for name in twice:
+            rows = [i for i, n in enumerate(names) if n == name]
+            for k, i in enumerate(rows, 1):
+                names[i] = same(points[i]) if same else f"{name} {k}"
+    return names
 
 
 def without_maps(station: Station) -> Station:

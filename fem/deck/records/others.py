@@ -25,7 +25,7 @@ RECORDS = (
     Card(
         name="EIGB",
         group=_MODES,
-        fields="sid:i method:s=INV l1:f=nan l2:f=nan nep:i=0 ndp:i=0 ndn:i=0 - "
+        fields="sid:i method:s=INV l1:f=nan[1] l2:f=nan[1] nep:i=0 ndp:i=0 ndn:i=0 - "
         "norm:s=MAX g:i=0 c:i=0",
     ),
     Card(

@@ -6,6 +6,7 @@ import pytest
 from drake_landing.parts.monitors import stations
 from drake_landing.parts.slices import balanced
 from fem.deck.reader import read_deck
+from fem.deck.units import in_si, units_of
 from fem.model.structure import Structure
 from fem.recovery.grid_forces import grid_balance
 from fem.recovery.monitor_points import monitor_points
@@ -139,3 +140,16 @@ def test_loads_come_along_the_frame_cd(structure, answer):
     point = next(p for p in monitor_points(structure).points if p.name == "ROUND")
     assert point.point == pytest.approx([2.0, 0.0, 0.1])
     assert found["ROUND"] == pytest.approx(found["CUT3"][[0, 2, 4]], rel=1e-9)
+
+
+def test_points_of_one_name_are_told_apart_and_units_are_converted(tmp_path):
+    text = DECK.replace("MONPNT3 CUT3    Outboard", "MONPNT3 OUTER   Outboard")
+    path = tmp_path / "deck.bdf"
+    path.write_text(text + "ENDDATA\n")
+    deck = read_deck(path)
+    names = [s.name for s in stations(Structure.from_deck(deck), LOADED)[0]]
+    assert names == ["OUTER (MONPNT1)", "TURNED", "OUTER (MONPNT3)", "CUT3B", "ROUND"]
+    in_metres = Structure.from_deck(in_si(deck, units_of("mm-t-N")))
+    points = monitor_points(in_metres).points
+    assert points[0].point == pytest.approx([2e-3, 0.0, 1e-4])
+    assert points[-1].point == pytest.approx([2e-3, 0.0, 1e-4])  # cylindrical frame
