@@ -100,7 +100,8 @@ def _duration(seconds: float) -> str:
 @app.command()
 def run(
     deck: Annotated[
-        Path, typer.Argument(help="Nastran deck (SOL 101, 103, 105, 109, 112).")
+        Path,
+        typer.Argument(help="Nastran deck (SOL 101, 103, 105, 108, 109, 111, 112)."),
     ],
     out: Annotated[
         Path | None,
@@ -125,6 +126,17 @@ def run(
     ] = None,
     paraview: Annotated[
         bool, typer.Option("--paraview", help="ParaView files (VTKHDF).")
+    ] = False,
+    f06: Annotated[
+        bool, typer.Option("--f06", help="A listing like F06 (DIR/<deck>.f06).")
+    ] = False,
+    punch: Annotated[
+        bool,
+        typer.Option(
+            "--punch",
+            help="All results as PUNCH (DIR/<deck>.pch); requests with PUNCH write "
+            "theirs without it.",
+        ),
     ] = False,
     quality: Annotated[
         bool, typer.Option("--quality", help="Print the worst shapes of elements.")
@@ -170,7 +182,15 @@ def run(
         )
         results = run_deck(model, folder / f"{deck.stem}.h5", options)
         wanted = wants_op2(model) if op2 is None else op2
-        export(results, model, op2=wanted, paraview=paraview, say=console.say)
+        export(
+            results,
+            model,
+            op2=wanted,
+            paraview=paraview,
+            say=console.say,
+            f06=f06,
+            punch=punch,
+        )
 
 
 def _status(arguments: list[str] | None) -> int:

@@ -64,7 +64,7 @@ def section() -> str:
             "",
             "### Requests of case control",
             "",
-            *_table("request", "SOL 101", "103", "105", "109, 112"),
+            *_table("request", "SOL 101", "103", "105", "108, 111", "109, 112"),
             *(_row(name, *_marks(name)) for name in asked if "yes" in _marks(name)),
             "",
             f"Not written, and said so: {', '.join(missing)}.",
@@ -86,7 +86,7 @@ def _row(*cells: str) -> str:
 
 
 def _marks(quantity: str) -> list[str]:
-    return ["yes" if quantity in WRITTEN[n] else "-" for n in (101, 103, 105, 109)]
+    return ["yes" if quantity in WRITTEN[n] else "-" for n in (101, 103, 105, 108, 109)]
 
 
 def _short(value: int | float | str) -> str:

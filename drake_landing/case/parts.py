@@ -86,6 +86,13 @@ class Parts(Section):
     ultimate_factor: float = number(
         "margins of safety hold for stresses times this factor", "-", 1.5, gt=0, le=10
     )
+    buckling: int = Field(
+        default=0,
+        ge=0,
+        le=50,
+        description="how many panels are sought that buckle first: load factors of the "
+        "static cases of the instants when a gear's load is extreme; 0: none",
+    )
     allowables: dict[int, float] = Field(
         default={},
         description="material id -> allowable stress, Pa; otherwise ST of MAT1",

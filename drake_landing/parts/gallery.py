@@ -6,7 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.case.parts import Parts
-from drake_landing.parts.pictures import can_draw, draw_field, stress_field
+from drake_landing.parts.buckling import BuckledPanels
+from drake_landing.parts.pictures import can_draw, draw_field, mode_field, stress_field
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.tables import component_table
 from drake_landing.parts.watch import PartsFound
@@ -81,3 +82,28 @@ def stress_pictures(
             )
         )
     return pictures, ""
+
+
+def buckling_pictures(
+    out: Path, structure: Structure, buckled: BuckledPanels | None, R_AB: Float64
+) -> list[tuple[Path, str]]:
+    """The mode of the panel that buckles first: the whole, and a close-up."""
+    if buckled is None or buckled.table.empty or not can_draw():
+        return []
+    first = buckled.table.iloc[0]
+    field = mode_field(structure, buckled.shape, buckled.work, int(first["id"]))
+    if not len(field.faces):
+        return []
+    pictures = []
+    for name, close in (("all", False), ("close", True)):
+        path = out / "pictures" / f"buckling_{name}.png"
+        draw_field(path, field, close=close, up=R_AB[2], aft=R_AB[0])
+        where = "round the element with most of the work" if close else "the airframe"
+        pictures.append(
+            (
+                path,
+                f"The mode that buckles first ({first.component}, factor "
+                f"{first.factor:.3g}), {where}; its size is arbitrary.",
+            )
+        )
+    return pictures

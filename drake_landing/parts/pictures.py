@@ -6,7 +6,7 @@ Drawn off-screen by VTK; where that is not possible, there is a sentence instead
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -46,6 +46,8 @@ class Field:
         face_stress, line_stress: Pa per element.
         factor: of the displacements.
         worst: (k, 3) corners of the worst element, deformed.
+        title: of the colours.
+        unit: Pa, or what one is in the picture.
     """
 
     p: Float64
@@ -55,6 +57,8 @@ class Field:
     line_stress: Float64
     factor: float
     worst: Float64
+    title: str = "equivalent stress, MPa"
+    unit: float = 1e6
 
 
 def can_draw() -> bool:
@@ -90,25 +94,52 @@ def stress_field(
     """
     equivalent = stresses.of(snapshot.displacement[:, None])[0, :, 0]
     stress = pd.Series(equivalent, index=stresses.id)
+    return _field(structure, snapshot.displacement, stress, snapshot.element, chosen)
+
+
+def mode_field(
+    structure: Structure, shape: Float64, work: pd.Series, element: int
+) -> Field:
+    """The elements moved by a buckling mode, with the work that is done on them.
+
+    Args:
+        structure: the full model.
+        shape: (f,) the mode.
+        work: element id -> share of the largest.
+        element: with the most of it.
+    """
+    field = _field(structure, shape, work, element, None)
+    title = "work of the internal forces, share of the largest"
+    return replace(field, title=title, unit=1.0)
+
+
+def _field(
+    structure: Structure,
+    displacement: Float64,
+    values: pd.Series,
+    element: int,
+    chosen: frozenset[int] | None,
+) -> Field:
+    """Elements moved by (f,) displacements, with values by element id."""
     points = structure.points
     moved = structure.operator(points.grid_id, (1, 2, 3), frame="basic")
-    u = (moved @ snapshot.displacement).reshape(-1, 3)
-    u = u - _rigid_part(structure, snapshot.displacement, points.xyz)
+    u = (moved @ displacement).reshape(-1, 3)
+    u = u - _rigid_part(structure, displacement, points.xyz)
     size = float(np.ptp(points.xyz, axis=0).max())
     largest = float(np.linalg.norm(u, axis=1).max())
     factor = _round(_DEFORMATION * size / largest) if largest > 0.0 else 1.0
     p = points.xyz + factor * u
-    faces, face_id = _cells(structure, "surface", chosen, stress.index)
-    lines, line_id = _cells(structure, "line", chosen, stress.index)
+    faces, face_id = _cells(structure, "surface", chosen, values.index)
+    lines, line_id = _cells(structure, "line", chosen, values.index)
     own = [row for row, e in zip((*faces, *lines), (*face_id, *line_id))
-           if e == snapshot.element]  # fmt: skip
+           if e == element]  # fmt: skip
     worst = p[own[0]] if own else p.mean(axis=0)[None]
     return Field(
         p=p,
         faces=_padded(faces),
         lines=_padded(lines),
-        face_stress=stress.loc[face_id].to_numpy(float),
-        line_stress=stress.loc[line_id].to_numpy(float),
+        face_stress=values.loc[face_id].to_numpy(float),
+        line_stress=values.loc[line_id].to_numpy(float),
         factor=factor,
         worst=worst,
     )
@@ -137,9 +168,9 @@ def draw_field(
     sticks = close or not len(field.faces)
     every = np.concatenate([field.face_stress, field.line_stress])
     top = float(np.quantile(every, _TOP)) if not close else float(every.max())
-    scale = (0.0, max(top, 1.0))
+    scale = (0.0, max(top, 1e-6 * field.unit))
     bar = {
-        "title": "equivalent stress, MPa",
+        "title": field.title,
         "vertical": False,
         "position_x": 0.30,
         "position_y": 0.02,
@@ -148,7 +179,7 @@ def draw_field(
         "title_font_size": 22,
         "label_font_size": 20,
         "color": "black",
-        "fmt": "%.0f" if scale[1] > 2e7 else "%.1f",
+        "fmt": "%.0f" if scale[1] > 20.0 * field.unit else "%.1f",
     }
     for data, stress, width in (
         (_poly(field.p, faces=field.faces), field.face_stress, 1.0),
@@ -156,12 +187,12 @@ def draw_field(
     ):
         if not len(stress):
             continue
-        data.cell_data["stress"] = stress / 1e6
+        data.cell_data["stress"] = stress / field.unit
         plotter.add_mesh(
             data,
             scalars="stress",
             cmap="turbo",
-            clim=(0.0, scale[1] / 1e6),
+            clim=(0.0, scale[1] / field.unit),
             scalar_bar_args=bar,
             show_edges=close and width == 1.0,
             edge_opacity=0.3,

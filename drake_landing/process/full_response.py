@@ -13,6 +13,7 @@ from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads
+from drake_landing.parts.buckling import BuckledPanels, buckled_panels
 from drake_landing.parts.case_places import places_of
 from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import Inventory, inventory
@@ -49,6 +50,7 @@ class FullResponse:
         watch: what was looked at.
         parts: what was found there.
         practices: the three side by side, None: not asked for.
+        buckled: panels that buckle first, None: not asked for.
     """
 
     response: dict[str, pd.DataFrame]
@@ -56,6 +58,7 @@ class FullResponse:
     watch: PartsWatch
     parts: PartsFound
     practices: Practices | None
+    buckled: BuckledPanels | None
 
 
 def full_response(
@@ -78,8 +81,21 @@ def full_response(
     structure, landing = airframe.structure, loads[0]
     stages.begin("static cases")
     gears = {g.name: list(g.attachments.values()) for g in aircraft.gears}
-    instants = extreme_instants(landing, gears) if len(loads) > 1 else {}
+    wanted = len(loads) > 1 or case.parts.buckling
+    instants = extreme_instants(landing, gears) if wanted else {}
     steady, slices = _static(aircraft, structure, landing, instants, cache)
+    buckled = None
+    if slices is not None and case.parts.buckling:
+        stages.begin("buckling", f"({len(instants)} static cases)")
+        upon = slices.displacement
+        buckled = buckled_panels(
+            structure,
+            inventory(structure, case.parts.allowables, case.parts.components),
+            upon if steady is None else upon + steady[:, None],
+            {float(landing.time[k]): text for k, text in instants.items()},
+            case.parts.buckling,
+            cache,
+        )
 
     stages.begin("maps of stresses and section loads")
     watch = parts_watch(case, aircraft, structure, landing.node_id, steady)
@@ -99,7 +115,7 @@ def full_response(
     stages.begin("tables of the parts")
     parts = watch.found(loads)
     practices = None
-    if slices is not None:
+    if slices is not None and len(loads) > 1:
         at_rest = static_slices(
             structure,
             landing,
@@ -116,6 +132,7 @@ def full_response(
         watch=watch,
         parts=parts,
         practices=practices,
+        buckled=buckled,
     )
 
 

@@ -33,6 +33,7 @@ from drake_landing.landing.history import LandingHistory, gear_peaks
 from drake_landing.landing.run import build_landing, fast_mode_notices, fly
 from drake_landing.landing.settling import LIMIT, Settling, swing_of
 from drake_landing.parts import tables
+from drake_landing.parts.buckling import with_margin
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.parts.watch import PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
@@ -155,6 +156,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
         deck_checked=deck_checked,
         provenance=provenance,
         practices=full.practices,
+        buckled=full.buckled,
         notices=tuple(
             by_kind(
                 [
@@ -295,7 +297,7 @@ def _fly(
 
 def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
     """results.h5, the CSV tables, pictures, report.html and landing.html."""
-    from drake_landing.parts.gallery import stress_pictures
+    from drake_landing.parts.gallery import buckling_pictures, stress_pictures
     from drake_landing.replay.record import write_replay
     from drake_landing.report import write_report
     from drake_landing.report.histories import write_histories
@@ -312,16 +314,19 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
         result.parts,
         result.airframe.R_AB,
     )
+    pictured: list[tuple[Path, str]] = []
     pictures, unable = [], "Pictures of the stress field failed, see the notices."
     with _at_most_lost("pictures of the stress field", lost):
         pictures, unable = stress_pictures(
             out, structure, watch.stresses, parts, result.case.parts, R_AB
         )
+    with _at_most_lost("picture of the panel that buckles", lost):
+        pictured = buckling_pictures(out, structure, result.buckled, R_AB)
     stages.begin("writing the report")
     with _at_most_lost("histories.html, the interactive histories,", lost):
         write_histories(out / "histories.html", result)
     result = replace(result, notices=(*result.notices, *lost))
-    write_report(out / "report.html", result, pictures, unable)
+    write_report(out / "report.html", result, pictures, unable, pictured)
     stages.end()
     write_csv(out / "stages.csv", units.with_units(stages.table()))
     write_readme(result, out)
@@ -384,6 +389,9 @@ def write_files(result: ProcessResult, out: Path) -> None:
     write_history_csv(
         out / "accelerations_equipment.csv", tables.equipment_histories(parts)
     )
+    if result.buckled is not None:
+        panels = with_margin(result.buckled, ultimate)
+        write_csv(out / "buckling.csv", units.with_units(panels))
     if result.practices is not None:
         write_csv(out / "practices.csv", units.with_units(result.practices.table))
     write_history_csv(out / "attachment_loads.csv", history.attachment)

@@ -70,6 +70,7 @@ def write_report(
     result: "ProcessResult",
     pictures: Sequence[Picture] = (),
     unable: str = "",
+    buckling: Sequence[Picture] = (),
 ) -> None:
     """Writes `report.html`.
 
@@ -78,6 +79,7 @@ def write_report(
         result: of the run.
         pictures: of the stress field, and what they show.
         unable: a sentence on why there are none.
+        buckling: pictures of the mode that buckles first.
     """
     case = result.case
     write_page(
@@ -87,7 +89,7 @@ def write_report(
             title=case.title or f"{result.aircraft.name}: landing",
             story=story(result),
             key_figures=key_figures(result),
-            sections=list(_sections(result, pictures, unable, path.parent)),
+            sections=list(_sections(result, pictures, unable, buckling, path.parent)),
             footer=", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
             + f", Python {platform.python_version()}. SI units.",
         ),
@@ -95,7 +97,11 @@ def write_report(
 
 
 def _sections(
-    result: "ProcessResult", pictures: Sequence[Picture], unable: str, folder: Path
+    result: "ProcessResult",
+    pictures: Sequence[Picture],
+    unable: str,
+    buckling: Sequence[Picture],
+    folder: Path,
 ) -> Iterator[Section]:
     yield Section(
         id="verdict",
@@ -120,7 +126,7 @@ def _sections(
             _attachment_nodes(result),
         ],
     )
-    yield from parts_sections(result, pictures, unable)
+    yield from parts_sections(result, pictures, unable, buckling)
     yield _accelerations(result)
     yield _spectra(result)
     yield _extremes(result)

@@ -9,6 +9,7 @@ import pandas as pd
 
 from drake_landing.case.axes import deck_axes
 from drake_landing.parts import tables
+from drake_landing.parts.buckling import COARSE, BuckledPanels, with_margin
 from drake_landing.parts.watch import PartsFound
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
@@ -47,7 +48,10 @@ _FORMATS = {
 
 
 def parts_sections(
-    result: "ProcessResult", pictures: Sequence[Picture], unable: str
+    result: "ProcessResult",
+    pictures: Sequence[Picture],
+    unable: str,
+    buckling: Sequence[Picture] = (),
 ) -> Iterator[Section]:
     """The sections in their order.
 
@@ -55,11 +59,14 @@ def parts_sections(
         result: of the run.
         pictures: PNG files and what they show.
         unable: why there are none.
+        buckling: pictures of the mode that buckles first.
     """
     yield _section_loads(result)
     if result.parts.stations:
         yield _monitor_points(result)
     yield _stresses(result, pictures, unable)
+    if result.buckled is not None:
+        yield _buckling(result, result.buckled, buckling)
     if result.parts.places.panels:
         yield _panels(result)
     yield _equipment(result)
@@ -146,6 +153,59 @@ def _steady(result: "ProcessResult") -> str:
     source = steady.file.name if steady.file else "the deck"
     which = "all loads" if steady.load is None else f"LOAD {steady.load}"
     return f"weight at 1 g and {which} of {source}"
+
+
+def _buckling(
+    result: "ProcessResult", buckled: BuckledPanels, pictures: Sequence[Picture]
+) -> Section:
+    ultimate = result.case.parts.ultimate_factor
+    upon = "" if result.parts.total is None else " and of steady flight"
+    missed = (
+        "A count of eigenvalues shows that no lower one was missed. "
+        if buckled.complete
+        else "A count of eigenvalues says that lower ones may be missing. "
+    )
+    coarse = int((buckled.table.elements < COARSE).sum())
+    heads = {
+        "factor": "load factor",
+        "margin": "margin",
+        "component": "component",
+        "id": "element",
+        "x": "at x m",
+        "y": "y m",
+        "z": "z m",
+        "elements": "elements with half of the work",
+        "time": "instant s",
+        "reason": "extreme",
+    }
+    formats = dict.fromkeys(("x", "y", "z"), ".2f")
+    formats |= {"factor": ".3g", "margin": "+.2f", "time": ".3f"}
+    text = (
+        f"The loads of {buckled.instants} instants at which a gear's load is extreme, "
+        f"at rest and balanced by rigid inertia{upon}, times the load factor let the "
+        f"panel buckle (linear buckling of the full model). {missed}Margin: the factor "
+        f"over {ultimate:g}, less 1. These panels were checked as far as the mesh has "
+        "them: buckling between its grids, of a panel that is one element wide, is not "
+        "seen, nor are local buckling of thin flanges and what happens after buckling. "
+    )
+    if coarse:
+        text += (
+            f"In {coarse} of these modes fewer than {COARSE} elements do half of the "
+            "work: the mesh is too coarse for their half waves, and the factor is a "
+            "hint, no proof. "
+        )
+    if buckled.table.empty:
+        text += "No panel buckles under these loads, whatever their size."
+    blocks = [png_block(path, caption) for path, caption in pictures]
+    if len(buckled.table):
+        table = with_margin(buckled, ultimate)
+        blocks.append(table_block(table, heads, formats, "Panels that buckle first"))
+    return Section(
+        id="buckling",
+        title="What the parts see: buckling",
+        text=text,
+        blocks=blocks,
+    )
 
 
 def _axial(axial: pd.DataFrame) -> Block:

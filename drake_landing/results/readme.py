@@ -46,19 +46,22 @@ _LINES = {
     "worst_elements.csv": "of each result quantity the ten elements that see most, "
     "unit in `unit`",
     "late_extremes.csv": "extremes in the last swing of the run; empty: none",
+    "buckling.csv": "panels that buckle first in the static cases of the landing's "
+    "instants: load factor, margin, place",
     "practices.csv": "the same landing by three practices, unit in `unit`",
     "stages.csv": "time and memory of each stage of the run",
     "pictures": "stress field at the instants of the largest stresses (PNG)",
     "report.pdf": "the report, printed",
     README: "this text",
 }
-_SOMETIMES = ("airframe.bdf", "practices.csv", "report.pdf", "pictures",
+_SOMETIMES = ("airframe.bdf", "buckling.csv", "practices.csv", "report.pdf", "pictures",
               "monitor_points.csv", "monitor_histories.csv")  # fmt: skip
 
 
 def file_lines(result: "ProcessResult", folder: Path) -> list[tuple[str, str]]:
     """Name of each file that a run writes, and what it holds."""
     there = {name for name in _SOMETIMES if (folder / name).exists()}
+    there |= {"buckling.csv"} if result.buckled is not None else set()
     there |= {"practices.csv"} if result.practices is not None else set()
     return [(n, t) for n, t in _LINES.items() if n in there or n not in _SOMETIMES]
 

@@ -12,6 +12,7 @@ from drake_landing.case.axes import vertical_axis
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import POINT, LandingHistory
+from drake_landing.parts.buckling import BuckledPanels
 from drake_landing.parts.watch import PartsFound
 from drake_landing.results.provenance import Provenance
 from drake_landing.results.stages import Stages
@@ -40,6 +41,7 @@ class ProcessResult:
         deck_checked: what reading the written deck back has shown.
         late: extremes in the last swing, see `late_extremes`.
         practices: the three practices side by side, where they were asked for.
+        buckled: the panels that buckle first, where they were asked for.
         comparison: table of `comparison.csv`.
         gears: table of `gears.csv`.
         notices: what the user should know.
@@ -64,6 +66,7 @@ class ProcessResult:
     deck_checked: str
     provenance: Provenance
     practices: Practices | None = None
+    buckled: BuckledPanels | None = None
     notices: tuple[str, ...] = ()
     stages: Stages = field(default_factory=Stages, repr=False)
 

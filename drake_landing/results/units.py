@@ -42,8 +42,13 @@ def unit_of(column: str) -> str:
 
 
 def with_units(table: pd.DataFrame) -> pd.DataFrame:
-    """The table with units in its headings, `time [s]`, index included."""
-    renamed = table.rename(columns={c: _heading(str(c)) for c in table.columns})
+    """The table with units in its headings, `time [s]`, index included.
+
+    Columns x, y, z are places here; histories of accelerations have their own headings.
+    """
+    names = {c: _heading(str(c)) for c in table.columns}
+    names |= {c: f"{c} [m]" for c in ("x", "y", "z") if c in names}
+    renamed = table.rename(columns=names)
     if table.index.name:
         renamed = renamed.rename_axis(_heading(str(table.index.name)))
     return renamed

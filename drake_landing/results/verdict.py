@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drake_landing.airframe.truncation import WANTED
+from drake_landing.parts.buckling import COARSE
 from drake_landing.parts.tables import component_table
 from drake_landing.results.truncation import point_errors
 from drake_landing.results.whole_mass import whole_mass
@@ -27,6 +28,7 @@ def verdict(result: "ProcessResult") -> list[tuple[str, str]]:
         ("gear loads", _gear_loads(result)),
         *_sections(result),
         *_stresses(result),
+        *_buckling(result),
         ("to look at", "; ".join(_to_look_at(result)) or "nothing stands out"),
     ]
 
@@ -104,6 +106,25 @@ def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:
     if said:
         text = f"{'; '.join(said)}; of the cuts made, increments to steady flight"
         yield "largest bending", text
+
+
+def _buckling(result: "ProcessResult") -> Iterator[tuple[str, str]]:
+    """The panel that buckles first, where that was asked for."""
+    buckled = result.buckled
+    if buckled is None:
+        return
+    if buckled.table.empty:
+        yield "buckling", "no panel of the mesh buckles in the static cases"
+        return
+    first = buckled.table.iloc[0]
+    coarse = first["elements"] < COARSE
+    mesh = "; its half wave is coarser than the mesh can show" if coarse else ""
+    yield (
+        "buckling",
+        f"smallest load factor {first.factor:.3g}: {first.component}, element "
+        f"{first['id']}, in the static case at {first.time:.3f} s ({first.reason})"
+        f"{mesh}",
+    )
 
 
 def _stresses(result: "ProcessResult") -> Iterator[tuple[str, str]]:

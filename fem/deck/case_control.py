@@ -20,6 +20,8 @@ class Subcase:
     Attributes:
         temperature: set of temperatures that load (TEMPERATURE(LOAD)).
         initial_temperature: set of TEMPERATURE(INITIAL) or (MATERIAL).
+        meffmass: grid about which effective masses of modes are taken, 0: the origin of
+            the basic frame; -1: they are not asked for.
         statsub: static subcase whose load buckles (STATSUB, STATSUB(BUCKLING)).
         preload: static subcase whose load stays (STATSUB(PRELOAD)).
         combination: subcases and factors that SUBCOM or SYMCOM adds up.
@@ -46,6 +48,8 @@ class Subcase:
     method: int = 0
     suport1: int = 0
     sdamping: int = 0
+    frequency: int = 0
+    meffmass: int = -1
     nsm: int = 0
     massset: int = 0
     statsub: int = 0
@@ -322,6 +326,14 @@ class _Reader:
             self.change(initial_temperature=n)
         else:
             self.change(temperature=n)
+
+    def do_meffmass(self, command: _Command) -> None:
+        """MEFFMASS(GRID = n, ...) = YES or NO."""
+        if command.value.startswith("NO"):
+            self.change(meffmass=-1)
+            return
+        grids = [w.split("=")[1] for w in command.options if w.startswith("GRID")]
+        self.change(meffmass=number(grids[0].strip()) if grids else 0)
 
     def do_statsub(self, command: _Command) -> None:
         """STATSUB(BUCKLING or PRELOAD) = static subcase; alone it is what buckles."""

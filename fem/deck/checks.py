@@ -161,6 +161,8 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
     ("mpc", ("MPC", "MPCADD"), ()),
     ("load", (*STATIC_LOADS, "LOAD"), (101, 105)),
     ("dload", ("DLOAD", "TLOAD1", "TLOAD2"), _TRANSIENT),
+    ("dload", ("DLOAD", "RLOAD1", "RLOAD2"), (108, 111)),
+    ("frequency", ("FREQ", "FREQ1", "FREQ2"), (108, 111)),
     ("loadset", ("LSEQ",), _TRANSIENT),
     ("ic", ("TIC",), _TRANSIENT),
     ("tstep", ("TSTEP",), _TRANSIENT),
@@ -176,7 +178,7 @@ _COMBINED: dict[str, tuple[str, str, tuple[str, ...]]] = {
     "MPCADD": ("mpc", "sets", ("MPC", "MPCADD")),
     "NSMADD": ("nsm", "sets", ("NSM", "NSML", "NSMADD")),
     "LOAD": ("load", "lids", STATIC_LOADS),
-    "DLOAD": ("dload", "lids", ("TLOAD1", "TLOAD2")),
+    "DLOAD": ("dload", "lids", ("TLOAD1", "TLOAD2", "RLOAD1", "RLOAD2")),
 }
 
 

@@ -22,6 +22,7 @@ DEFAULTS: dict[str, Value] = {
     "HFREQ": 1e30,
     "INREL": 0,
     "K6ROT": 100.0,
+    "KDAMP": 1,
     "LFREQ": 0.0,
     "LMODES": 0,
     "POST": 0,

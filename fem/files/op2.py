@@ -7,7 +7,7 @@ reader is the test.
 Not in the file: energies, grid point forces, envelopes (the HDF5 file has them).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,13 +15,21 @@ import h5py
 import numpy as np
 import numpy.typing as npt
 
-from fem.arrays import Float64, Int64
+from fem.arrays import Int64
 from fem.elements.connectivity import element_grids
 from fem.files.aside import written_aside
-from fem.files.op2_elements import Elements, layout_of, plies_of, ply_words, words
+from fem.files.op2_elements import (
+    Elements,
+    Layout,
+    layout_of,
+    plies_of,
+    ply_words,
+    words,
+)
 from fem.files.op2_records import (
     BUCKLING,
     DEVICE,
+    FREQUENCY,
     MODAL,
     STATIC,
     TRANSIENT,
@@ -33,6 +41,7 @@ from fem.files.reading import ElementResult, PointResult, Solution, solutions
 from fem.model.structure import Structure
 
 Words = npt.NDArray[np.float32]
+Numbers = npt.NDArray[np.inexact]
 
 _POINTS = {
     "displacement": ("OUGV1", 1),
@@ -53,6 +62,7 @@ _ANALYSES = {
     "static": STATIC,
     "modes": MODAL,
     "buckling": BUCKLING,
+    "frequency": FREQUENCY,
     "transient": TRANSIENT,
 }
 
@@ -129,27 +139,35 @@ def _point_series(solution: Solution) -> list[_Series]:
             continue
 
         def words_of(k: int, result: PointResult = result) -> Words:
-            scalars = np.zeros((len(result.scalar_id), 6))
+            grids = solution.state(result.grids, k)
+            scalars = np.zeros((len(result.scalar_id), 6), grids.dtype)
             if result.scalars is not None:
                 scalars[:, 0] = solution.state(result.scalars, k)
-            grids = solution.state(result.grids, k)
             return _point_words(result.grid_id, grids, result.scalar_id, scalars)
 
-        series.append(_Series(Kind(table=table, code=code, width=8), words_of))
+        parts = 2 if np.issubdtype(result.grids.dtype, np.complexfloating) else 1
+        kind = Kind(table=table, code=code, width=2 + 6 * parts, parts=parts)
+        series.append(_Series(kind, words_of))
     return series
 
 
 def _point_words(
-    grid_id: Int64, grids: Float64, scalar_id: Int64, scalars: Float64
+    grid_id: Int64, grids: Numbers, scalar_id: Int64, scalars: Numbers
 ) -> Words:
-    """Rows of ids, type (1: grid, 2: scalar point) and six values, by id."""
+    """Rows of ids, type (1: grid, 2: scalar point) and six values, by id.
+
+    Of complex values all real parts come first.
+    """
     ids = np.concatenate([grid_id, scalar_id])
     order = np.argsort(ids, kind="stable")
-    out = np.zeros((len(ids), 8), "<f4")
+    values = np.concatenate([grids, scalars])[order]
+    if np.iscomplexobj(values):
+        values = np.concatenate([values.real, values.imag], axis=1)
+    out = np.zeros((len(ids), 2 + values.shape[1]), "<f4")
     integers = out.view("<i4")
     integers[:, 0] = 10 * ids[order] + DEVICE
     integers[:, 1] = np.where(order < len(grid_id), 1, 2)
-    out[:, 2:] = np.concatenate([grids, scalars])[order]
+    out[:, 2:] = values
     return out
 
 
@@ -158,6 +176,9 @@ def _element_series(
 ) -> tuple[list[_Series], list[str]]:
     """Series of element results, and what has no place in the file."""
     series: list[_Series] = []
+    if solution.analysis == "frequency":
+        found = solution.elements("element_force")
+        return [], [f"complex element_force of {card}" for card in found]
     left = [
         f"element_failure of {card}" for card in solution.elements("element_failure")
     ]
@@ -173,9 +194,7 @@ def _element_series(
                 )
                 series.append(_Series(kind, _plies(solution, result)))
                 continue
-            grids = _grids_of(structure, card, result.id)
-            elements = Elements(id=result.id, grids=grids, columns=result.columns)
-            layout = layout_of(card, name.removeprefix("element_"), elements)
+            layout = _layout(structure, name, card, result)
             if layout is None:
                 left.append(f"{name} of {card}")
                 continue
@@ -195,6 +214,25 @@ def _element_series(
             )
             series.append(_Series(kind, words_of))
     return series, left
+
+
+def _layout(
+    structure: Structure, name: str, card: str, result: ElementResult
+) -> Layout | None:
+    """Words of a table "element_force" ... of a card; None: there is no place."""
+    grids = _grids_of(structure, card, result.id)
+    elements = Elements(id=result.id, grids=grids, columns=result.columns)
+    return layout_of(card, name.removeprefix("element_"), elements)
+
+
+def element_layouts(
+    solution: Solution, structure: Structure, name: str
+) -> Iterator[tuple[str, Layout, ElementResult]]:
+    """Tables "element_force" ... of a solution that have words in Nastran's files."""
+    for card, result in solution.elements(name).items():
+        layout = None if plies_of(card) else _layout(structure, name, card, result)
+        if layout is not None:
+            yield card, layout, result
 
 
 def _plies(solution: Solution, result: ElementResult) -> Callable[[int], Words]:

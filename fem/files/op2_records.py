@@ -15,7 +15,7 @@ _WORD = np.dtype("<i4")
 _REAL = np.dtype("<f4")
 DEVICE = 2  # plot
 
-STATIC, MODAL, TRANSIENT, BUCKLING = 1, 2, 6, 8
+STATIC, MODAL, FREQUENCY, TRANSIENT, BUCKLING = 1, 2, 5, 6, 8
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -23,10 +23,10 @@ class State:
     """The load case, mode or time to which results belong.
 
     Attributes:
-        analysis: STATIC, MODAL, BUCKLING or TRANSIENT.
+        analysis: STATIC, MODAL, FREQUENCY, BUCKLING or TRANSIENT.
         subcase: id.
         number: mode, from 1; 0 otherwise.
-        value: eigenvalue, rad²/s², load factor, or time, s.
+        value: eigenvalue, rad²/s², load factor, frequency, Hz, or time, s.
         frequency: Hz, of a mode.
         title: of the subcase.
     """
@@ -49,6 +49,7 @@ class Kind:
         element: element type, 0 for points.
         width: words per element or point.
         stress: Nastran's SCODE.
+        parts: 2 for real and imaginary parts, 1 for real numbers.
     """
 
     table: str
@@ -56,6 +57,7 @@ class Kind:
     element: int = 0
     width: int
     stress: int = 0
+    parts: int = 1
 
 
 class Op2File:
@@ -120,13 +122,13 @@ def _header(kind: Kind, state: State) -> bytes:
     words[0] = 10 * state.analysis + DEVICE
     words[1], words[2], words[3] = kind.code, kind.element, state.subcase
     reals = words.view(_REAL)
-    if state.analysis == TRANSIENT:
+    if state.analysis in (TRANSIENT, FREQUENCY):
         reals[4] = state.value
     elif state.analysis in (MODAL, BUCKLING):
         words[4] = state.number
         reals[5], reals[6] = state.value, state.frequency
     else:
         words[4] = state.subcase
-    words[8], words[9], words[10] = 1, kind.width, kind.stress
+    words[8], words[9], words[10] = kind.parts, kind.width, kind.stress
     title = state.title.encode("ascii", "replace")[:128].ljust(128)
     return words.tobytes() + title + b" " * 256

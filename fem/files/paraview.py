@@ -61,6 +61,8 @@ def write_paraview(results: Path, structure: Structure, folder: Path) -> list[Pa
     written = []
     with h5py.File(results) as source:
         for solution in solutions(source):
+            if solution.analysis == "frequency":  # complex: the HDF5 file has it
+                continue
             name = solution.analysis
             name += f"_{solution.subcase}" if solution.subcase else ""
             path = folder / f"{results.stem}_{name}.vtkhdf"

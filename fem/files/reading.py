@@ -9,7 +9,7 @@ import numpy as np
 
 from fem.arrays import Float64, Int64
 
-Analysis = Literal["static", "modes", "buckling", "transient"]
+Analysis = Literal["static", "modes", "buckling", "frequency", "transient"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,13 +95,21 @@ class Solution:
         return found
 
     def state(self, dataset: h5py.Dataset, k: int) -> Float64:
-        """Values of one state; statics have no axis of states."""
-        chosen = dataset[()] if self.analysis == "static" else dataset[k]
-        return np.asarray(chosen, dtype=float)
+        """Values of one state; statics have no axis of states.
+
+        Those of frequency responses are complex.
+        """
+        chosen = np.asarray(dataset[()] if self.analysis == "static" else dataset[k])
+        return chosen if np.iscomplexobj(chosen) else chosen.astype(float)
 
 
 # Solutions by subcase, and what their states are numbered by.
-_STATES: dict[Analysis, str] = {"static": "", "buckling": "factor", "transient": "time"}
+_STATES: dict[str, str] = {
+    "static": "",
+    "buckling": "factor",
+    "frequency": "frequency_hz",
+    "transient": "time",
+}
 
 
 def _ids(group: h5py.Group | h5py.File, name: str) -> Int64 | None:

@@ -67,12 +67,12 @@ def dynamic_excitation(
     columns: list[Float64] = []
     functions: list[TimeFunction] = []
     on_elements: list[tuple[ElementLoads | None, int]] = []
-    factors = _factors(deck, subcase.dload) if subcase.dload else {}
-    for name in ("TLOAD1", "TLOAD2"):
+    factors = load_factors(deck, subcase.dload, _TLOADS) if subcase.dload else {}
+    for name in _TLOADS:
         rows = deck.cards[name]
         for _, row in rows[rows["sid"].isin(factors)].iterrows():
             function = _function(deck, name, row)
-            spatial = factors[row["sid"]] * _pattern(
+            spatial = factors[row["sid"]] * pattern_of(
                 deck, points, subcase, name, row, mass_gg
             )
             loads = _element_loads(deck, points, subcase, row)
@@ -96,8 +96,20 @@ def dynamic_excitation(
     )
 
 
-def _factors(deck: "Deck", dload: int) -> dict[int, float]:
-    """TLOAD sets and their factors."""
+_TLOADS = ("TLOAD1", "TLOAD2")
+
+
+def load_factors(deck: "Deck", dload: int, names: tuple[str, str]) -> dict[int, float]:
+    """Sets of dynamic loads that DLOAD stands for, and their factors.
+
+    Args:
+        deck: the deck.
+        dload: number of DLOAD, or of a load itself.
+        names: cards of the loads.
+
+    Raises:
+        InputError: sets that are not there.
+    """
     table = deck.cards["DLOAD"]
     cards = table[table["sid"] == dload]
     factors: dict[int, float] = {}
@@ -106,11 +118,11 @@ def _factors(deck: "Deck", dload: int) -> dict[int, float]:
             factors[lid] = factors.get(lid, 0.0) + row["s"] * scale
     if cards.empty:
         factors[dload] = 1.0
-    known = {*deck.cards["TLOAD1"]["sid"], *deck.cards["TLOAD2"]["sid"]}
+    known = {sid for name in names for sid in deck.cards[name]["sid"]}
     absent = sorted(set(factors) - known)
     if absent:
         raise InputError(
-            f"{deck.path}: DLOAD {dload}: {lid} is no TLOAD1 or TLOAD2"
+            f"{deck.path}: DLOAD {dload}: {lid} is no {names[0]} or {names[1]}"
             for lid in absent
         )
     return factors
@@ -148,7 +160,7 @@ def table_notices(deck: "Deck", subcase: Subcase, end: float) -> list[str]:
     """
     if not subcase.dload:
         return []
-    factors = _factors(deck, subcase.dload)
+    factors = load_factors(deck, subcase.dload, _TLOADS)
     rows = deck.cards["TLOAD1"]
     notices = []
     for _, row in rows[rows["sid"].isin(factors)].iterrows():
@@ -197,7 +209,7 @@ def table_function(deck: "Deck", tid: int) -> Table:
     )
 
 
-def _pattern(
+def pattern_of(
     deck: "Deck",
     points: Points,
     subcase: Subcase,
@@ -251,17 +263,31 @@ def _split(
     deck: "Deck", points: Points, row: pd.Series, pattern: Float64
 ) -> list[tuple[float, npt.NDArray[np.bool_]]]:
     """Delays of a pattern, and the rows (size,) that each holds for."""
-    delays = np.full(points.size, float(row["delay"]))
-    sid = int(row["delayid"])
-    if sid:
-        table = deck.cards["DELAY"]
-        cards = table[table["sid"] == sid]
-        if cards.empty:
-            raise InputError(f"{row['file']}:{row['line']}: DELAY {sid} is not defined")
-        dof = points.dof(cards["id"].to_numpy(np.int64), cards["c"].to_numpy(np.int64))
-        delays[dof] = cards["t"].to_numpy(np.float64)
+    delays = of_freedoms(deck, points, row, "delay", "DELAY", "t")
     used = np.flatnonzero(pattern)
     return [(delay, delays == delay) for delay in np.unique(delays[used]).tolist()]
+
+
+def of_freedoms(
+    deck: "Deck", points: Points, row: pd.Series, field: str, card: str, value: str
+) -> Float64:
+    """(size,) delays or phases of a dynamic load: one number, or by freedom of a card.
+
+    Raises:
+        InputError: the set of the card is not there.
+    """
+    found = np.full(points.size, float(row[field]))
+    sid = int(row[f"{field}id"])
+    if sid:
+        table = deck.cards[card]
+        cards = table[table["sid"] == sid]
+        if cards.empty:
+            raise InputError(
+                f"{row['file']}:{row['line']}: {card} {sid} is not defined"
+            )
+        dof = points.dof(cards["id"].to_numpy(np.int64), cards["c"].to_numpy(np.int64))
+        found[dof] = cards[value].to_numpy(np.float64)
+    return found
 
 
 def initial_conditions(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.sparse as sp
 
-from fem.arrays import Float64
+from fem.arrays import Float64, Int64
 from fem.elements.dense import DenseBlock
 from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads
@@ -36,6 +36,31 @@ def differential_stiffness(
     """
     moved = points.basic_rotation() @ u_g
     return assemble_one(points, _matrices(points, blocks, moved, free, loads))
+
+
+def differential_work(
+    points: Points,
+    blocks: Sequence["ElementBlock"],
+    u_g: Float64,
+    shapes: Float64,
+) -> tuple[Int64, Float64]:
+    """What the internal forces of a state do on shapes, element by element.
+
+    Args:
+        points, blocks, u_g: as for `differential_stiffness`.
+        shapes: (g, m) displacements, displacement frames.
+
+    Returns:
+        Element ids (e,) and work (m, e), -x' K_d x: positive where it buckles.
+    """
+    rotation = points.basic_rotation()
+    moved, turned = rotation @ u_g, rotation @ shapes
+    ids, works = [np.zeros(0, np.int64)], [np.zeros((shapes.shape[1], 0))]
+    for block, matrix in _matrices(points, blocks, moved, None, None):
+        own = np.where((block.dof >= 0)[..., None], turned[block.dof], 0.0)
+        works.append(-np.einsum("eim,eij,ejm->me", own, matrix, own, optimize=True))
+        ids.append(block.id)
+    return np.concatenate(ids), np.concatenate(works, axis=1)
 
 
 def _matrices(

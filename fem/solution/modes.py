@@ -7,12 +7,14 @@ import pandas as pd
 
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.modes import Modes, ModesError, normal_modes
+from fem.algebra.participation import participation
 from fem.arrays import Float64
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
+from fem.model.weight import rigid_modes
 from fem.recovery.grid_forces import strain_energy
 from fem.solution.analysis_model import AnalysisModel, analysis_model
 from fem.solution.options import Options
@@ -172,6 +174,8 @@ def _write(
     results.write_points(
         f"{name}/shape", points, shapes.T, wanted.get("DISPLACEMENT", "ALL")
     )
+    if subcase.meffmass >= 0:
+        _write_participation(model, shapes, results, name)
     _write_forces(model, shapes, modes, results, name)
     if asked(subcase, "ESE") != "NONE":
         energies = strain_energy(points, model.blocks, shapes)
@@ -179,6 +183,28 @@ def _write(
             f"{name}/strain_energy", energies, ids_of(asked(subcase, "ESE"))
         )
     write_element_results(model, subcase, shapes, results, name)
+
+
+def _write_participation(
+    model: Structure, shapes: Float64, results: ResultFile, name: str
+) -> None:
+    """What MEFFMASS asks for; fixed freedoms take no part in the rigid motions.
+
+    Raises:
+        InputError: its grid is not there.
+    """
+    points, grid = model.points, model.subcase.meffmass
+    if grid and not np.isin(grid, points.grid_id):
+        raise InputError(
+            f"{model.deck.path}: MEFFMASS(GRID={grid}): expected a grid of the deck"
+        )
+    about = points.xyz[points.rows(grid)] if grid else np.zeros(3)
+    elimination = model.elimination
+    motions = elimination.T @ rigid_modes(points, about)[elimination.f]
+    found = participation(model.matrices.mass, shapes, motions)
+    results.write(f"{name}/participation_factor", found.factor)
+    results.write(f"{name}/effective_mass", found.effective)
+    results.write(f"{name}/rigid_mass", found.rigid)
 
 
 def _write_forces(

@@ -87,7 +87,16 @@ def check_requests(deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]) ->
 
 _NEEDED = {
     103: (("METHOD", ("EIGRL",), "which modes"),),
+    108: (
+        ("FREQUENCY", ("FREQ", "FREQ1", "FREQ2"), "the frequencies"),
+        ("DLOAD", ("RLOAD1", "RLOAD2"), "the loads"),
+    ),
     109: (("TSTEP", ("TSTEP",), "the time steps"),),
+    111: (
+        ("METHOD", ("EIGRL",), "which modes"),
+        ("FREQUENCY", ("FREQ", "FREQ1", "FREQ2"), "the frequencies"),
+        ("DLOAD", ("RLOAD1", "RLOAD2"), "the loads"),
+    ),
     112: (
         ("METHOD", ("EIGRL",), "which modes"),
         ("TSTEP", ("TSTEP",), "the time steps"),

@@ -16,6 +16,7 @@ from fem.errors import InputError, by_kind
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
 from fem.solution.buckling import solve_buckling
+from fem.solution.frequency import solve_frequencies
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
 from fem.solution.requests import check_requests
@@ -28,7 +29,9 @@ _SOLVERS: dict[int, _Solver] = {
     101: solve_statics,
     103: solve_modes,
     105: solve_buckling,
+    108: solve_frequencies,
     109: solve_transients,
+    111: solve_frequencies,
     112: solve_transients,
 }
 _TRANSIENT = frozenset({109, 112})
@@ -38,6 +41,8 @@ _ANALYSES = {
     "MODES": 103,
     "BUCK": 105,
     "BUCKLING": 105,
+    "DFREQ": 108,
+    "MFREQ": 111,
     "DTRAN": 109,
     "MTRAN": 112,
 }

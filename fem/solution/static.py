@@ -17,6 +17,7 @@ from fem.loads import enforced_displacements, static_element_loads, static_load
 from fem.loads.element_loads import ElementLoads, below_each_other
 from fem.loads.thermal import FreeMotions, free_motions, summed
 from fem.model.structure import Structure, system_of
+from fem.model.weight import rigid_modes
 from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
 from fem.recovery.grid_forces import grid_balance, grids_of, strain_energy
 from fem.solution.options import Options
@@ -239,6 +240,7 @@ def _write(
     results.write_points(
         f"{name}/spc_force", points, spc_force, asked.get("SPCFORCES", "ALL")
     )
+    _write_resultants(model, found, spc_force, results, name)
     for quantity, label, vector in (
         ("MPCFORCES", "mpc_force", mpc_force),
         ("OLOAD", "applied_load", load),
@@ -254,6 +256,36 @@ def _write(
     write_element_results(
         model, subcase, u_g, results, name, found.element_loads, found.free
     )
+
+
+def _write_resultants(
+    model: Structure,
+    found: StaticSolution,
+    spc_force: Float64,
+    results: ResultFile,
+    name: str,
+) -> None:
+    """What an F06 says first: sums of loads and of forces of constraint, epsilon.
+
+    Of each component of the forces what it adds to the resultant, (6, 6), about the
+    reference point of the weight table; epsilon is the work of the residual over that
+    of the loads, both (2,).
+    """
+    points = model.points
+    arm = rigid_modes(points, model.weight.reference)
+    rotation = points.basic_rotation()
+    for label, vector in (("oload", found.load), ("spc_force", spc_force)):
+        basic = rotation @ vector
+        grids = 6 * len(points.grid_id)
+        parts = np.zeros((6, points.size))
+        for k in range(6):
+            parts[k, k:grids:6] = basic[k:grids:6]
+        results.write(f"{name}/{label}_resultant", (rotation.T @ parts.T).T @ arm)
+    work = float(found.load @ found.u_g)
+    free = model.elimination.T.T @ found.residual
+    error = float((model.elimination.T.T @ found.u_g) @ free)
+    epsilon = error / work if work else 0.0
+    results.write(f"{name}/epsilon", np.array([epsilon, work]))
 
 
 def write_grid_forces(

@@ -4,6 +4,7 @@ Each function takes the columns of one card name and changes them in place; what
 wrong is appended to `problems`.
 """
 
+from collections.abc import Sequence
 from typing import Any
 
 from fem.deck.values import Malformed, real
@@ -99,6 +100,23 @@ def tload1(columns: Columns, problems: Problems) -> None:
                 "id of a TABLED1"
             )
     columns["tid"] = [t if isinstance(t, int) else 0 for t in columns["tid"]]
+
+
+def rload1(columns: Columns, problems: Problems) -> None:
+    _rload(columns, problems, ("tc", "td"))
+
+
+def rload2(columns: Columns, problems: Problems) -> None:
+    _rload(columns, problems, ("tb", "tp"))
+
+
+def _rload(columns: Columns, problems: Problems, functions: Sequence[str]) -> None:
+    """Integers are ids of sets and tables, reals the values themselves."""
+    for name in ("delay", "phase", *functions):
+        given = columns[name]
+        columns[f"{name}id"] = [v if isinstance(v, int) else 0 for v in given]
+        columns[name] = [0.0 if isinstance(v, int) else v for v in given]
+    _named_type(columns, problems)
 
 
 def _named_type(columns: Columns, problems: Problems) -> None:

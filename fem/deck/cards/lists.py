@@ -160,6 +160,14 @@ def accel1(f: Fields) -> Rows:
     return [{**row, "grids": np.array(sorted({*written, *between}), dtype=np.int64)}]
 
 
+def freq(f: Fields) -> Rows:
+    """FREQ: frequencies (Hz) as they come."""
+    found = [f.real(k, "F") for k in f.groups(2, 1)]
+    if not found or min(found) < 0.0:
+        raise Malformed(f"found {found}, expected frequencies of 0 Hz or more")
+    return [{"sid": f.integer(1, "SID"), "fs": np.unique(found)}]
+
+
 def tstep(f: Fields) -> Rows:
     steps = []
     for k in f.groups(2, 3, row=8):

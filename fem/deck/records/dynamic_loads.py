@@ -35,6 +35,37 @@ RECORDS = (
         load=True,
     ),
     Card(
+        name="RLOAD1",
+        group=_GROUP,
+        fields="sid:i exciteid:i delay:u=0 phase:u=0 tc:u=0 td:u=0 type:s=0",
+        finish=finish.rload1,
+        more="delayid:i phaseid:i tcid:i>TABLED1 tdid:i>TABLED1",
+        load=True,
+    ),
+    Card(
+        name="RLOAD2",
+        group=_GROUP,
+        fields="sid:i exciteid:i delay:u=0 phase:u=0 tb:u tp:u=0 type:s=0",
+        finish=finish.rload2,
+        more="delayid:i phaseid:i tbid:i>TABLED1 tpid:i>TABLED1",
+        load=True,
+    ),
+    Card(
+        name="DPHASE",
+        group=_GROUP,
+        fields="sid:i (id:i>POINT c:i=0 th:f=0.)",
+        load=True,
+    ),
+    Card(
+        name="FREQ",
+        group=_GROUP,
+        read=lists.freq,
+        more="sid:i fs:*",
+        load=True,
+    ),
+    Card(name="FREQ1", group=_GROUP, fields="sid:i f1:f df:f ndf:i=1", load=True),
+    Card(name="FREQ2", group=_GROUP, fields="sid:i f1:f f2:f nf:i=1", load=True),
+    Card(
         name="DELAY", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 t:f=0.)", load=True
     ),
     Card(

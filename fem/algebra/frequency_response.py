@@ -1,0 +1,154 @@
+"""Harmonic response: (-ω² M + i ω B + (1 + i G) K + i K4) u = P at each frequency.
+
+Directly, a factorisation per frequency: without damping of the real matrix
+A = K - ω² M; with it, of the real symmetric one of twice the size that belongs to the
+real and imaginary parts,
+
+    [A  -C] [ x]   [ Re P]
+    [-C -A] [ y] = [-Im P],    C = ω B + G K + K4,  u = x + i y.
+
+Or in modal coordinates, where the matrices are small and dense.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from fem.algebra.linear_solver import (
+    Factorization,
+    SingularMatrixError,
+    SolverName,
+    factorize,
+)
+from fem.algebra.modes import Modes
+from fem.arrays import Float64
+
+Complex128 = npt.NDArray[np.complex128]
+
+_SOLVED = 1e-6  # of the load: what may be left of it
+
+
+@dataclass(frozen=True, kw_only=True)
+class HarmonicMatrices:
+    """Matrices (n, n) of the equation above.
+
+    Attributes:
+        stiffness, mass: K and M.
+        viscous: B; None: none.
+        structural: G K + K4; None: none.
+    """
+
+    stiffness: sp.csr_matrix
+    mass: sp.csr_matrix
+    viscous: sp.csr_matrix | None = None
+    structural: sp.csr_matrix | None = None
+
+    def loss(self, omega: float) -> sp.csr_matrix | None:
+        """C at an angular frequency; None where there is no damping."""
+        parts = []
+        if self.viscous is not None and self.viscous.nnz and omega:
+            parts.append(omega * self.viscous)
+        if self.structural is not None and self.structural.nnz:
+            parts.append(self.structural)
+        return sp.csr_matrix(sum(parts[1:], parts[0])) if parts else None
+
+
+def direct_response(
+    matrices: HarmonicMatrices,
+    frequency_hz: Float64,
+    load: Callable[[int], Complex128],
+    *,
+    solver: SolverName | None = None,
+    progress: Callable[[int, int], None] = lambda done, total: None,
+) -> Complex128:
+    """Displacements (f, n) at frequencies (f,).
+
+    Args:
+        matrices: of the free freedoms.
+        frequency_hz: Hz.
+        load: (n,) at the k-th frequency.
+        solver: as in `factorize`.
+        progress: told how many frequencies are done.
+
+    Raises:
+        SingularMatrixError: at a frequency of the undamped structure.
+    """
+    n = len(matrices.mass.indptr) - 1
+    found = np.zeros((len(frequency_hz), n), complex)
+    for k, hertz in enumerate(frequency_hz):
+        omega = 2.0 * np.pi * float(hertz)
+        dynamic = sp.csr_matrix(matrices.stiffness - omega**2 * matrices.mass)
+        loss, p = matrices.loss(omega), load(k)
+        whole = dynamic
+        if loss is not None:
+            whole = sp.csr_matrix(sp.bmat([[dynamic, -loss], [-loss, -dynamic]]))
+        with factorize(whole, kind="symmetric", solver=solver) as factor:
+            if loss is None:
+                found[k] = _refined(factor, whole, p.real)
+                found[k] += 1j * _refined(factor, whole, p.imag)
+            else:
+                x = _refined(factor, whole, np.concatenate([p.real, -p.imag]))
+                found[k] = x[:n] + 1j * x[n:]
+        progress(k + 1, len(frequency_hz))
+    return found
+
+
+def _refined(factor: Factorization, matrix: sp.csr_matrix, right: Float64) -> Float64:
+    """A solution, once improved: pivots of indefinite matrices may be replaced.
+
+    Raises:
+        SingularMatrixError: it is none.
+    """
+    x = factor.solve(right)
+    x = x + factor.solve(right - matrix @ x)
+    rest = np.linalg.norm(right - matrix @ x)
+    if not rest <= _SOLVED * np.linalg.norm(right):
+        raise SingularMatrixError(None)
+    return x
+
+
+def modal_response(
+    modes: Modes,
+    matrices: HarmonicMatrices,
+    frequency_hz: Float64,
+    load: Complex128,
+    *,
+    ratio: Float64 | None = None,
+    hysteretic: bool = False,
+) -> Complex128:
+    """Amplitudes (f, m) of mass-normalised modes.
+
+    Args:
+        modes: with residual vectors, where there are any.
+        matrices: viscous and structural are projected on the modes.
+        frequency_hz: (f,) Hz.
+        load: (m, f) modal loads, shapesᵀ P.
+        ratio: (m,) damping ratios of the modes, None: none.
+        hysteretic: they are structural, 2 ζ i K, instead of viscous (PARAM KDAMP -1).
+
+    Raises:
+        np.linalg.LinAlgError: at a frequency of an undamped mode.
+    """
+    shape, square = modes.shape, modes.eigenvalue
+    m = len(square)
+    viscous = np.zeros((m, m))
+    structural = np.zeros((m, m))
+    if matrices.viscous is not None:
+        viscous += shape.T @ (matrices.viscous @ shape)
+    if matrices.structural is not None:
+        structural += shape.T @ (matrices.structural @ shape)
+    if ratio is not None:
+        own = 2.0 * ratio
+        if hysteretic:
+            structural += np.diag(own * square)
+        else:
+            viscous += np.diag(own * np.sqrt(np.abs(square)))
+    found = np.empty((len(frequency_hz), m), complex)
+    for k, hertz in enumerate(frequency_hz):
+        omega = 2.0 * np.pi * float(hertz)
+        matrix = np.diag(square - omega**2) + 1j * (omega * viscous + structural)
+        found[k] = np.linalg.solve(matrix, load[:, k])
+    return found

@@ -1,0 +1,224 @@
+"""SOL 108 and 111: harmonic response, directly or in modes, as complex results.
+
+Structural damping is used as it is (PARAM G, GE); viscous damping of elements and
+B2GG; in modes SDAMPING as well, viscous, or structural with PARAM KDAMP -1.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from fem.algebra.frequency_response import (
+    HarmonicMatrices,
+    direct_response,
+    modal_response,
+)
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.arrays import Float64
+from fem.deck.case_control import Subcase
+from fem.errors import InputError
+from fem.files.hdf5 import ResultFile
+from fem.loads.harmonic import HarmonicExcitation, frequencies, harmonic_excitation
+from fem.model.structure import Structure
+from fem.recovery.elements import element_tables
+from fem.response.modal import residual_vectors
+from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.modal_damping import modal_ratios
+from fem.solution.modes import mode_table, modes_of, retained_modes
+from fem.solution.options import Options
+from fem.solution.requests import check_free, wanted
+
+Complex128 = npt.NDArray[np.complex128]
+
+_POWERS = {"DISPLACEMENT": 0, "VELOCITY": 1, "ACCELERATION": 2}
+
+
+def solve_frequencies(
+    structure: Structure,
+    subcases: list[Subcase],
+    results: ResultFile,
+    options: Options,
+) -> None:
+    """Complex displacements and forces at frequencies, `/frequency/<id>`.
+
+    Raises:
+        InputError: loads or frequencies that are not there; a resonance without any
+            damping at one of the frequencies.
+    """
+    for case in subcases:
+        model = structure.with_subcase(case)
+        check_free(model, 108)
+        hertz = frequencies(model.deck, case)
+        excitation = harmonic_excitation(
+            model.deck, model.points, case, hertz, model.matrices.mass
+        )
+        solve = _modal if _is_modal(model) else _direct
+        u_g = solve(model, hertz, excitation, options)
+        _write(model, hertz, excitation, u_g, results)
+        options.console.say(_summary(model, hertz, u_g))
+
+
+def _is_modal(model: Structure) -> bool:
+    analysis = model.subcase.analysis.upper()
+    return analysis == "MFREQ" or (not analysis and model.deck.sol == 111)
+
+
+def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
+    """Matrices of the analysis set with their damping."""
+    g = float(model.deck.number("G"))
+    given, expand = model.matrices, reduced.expand
+
+    def own(matrix: sp.csr_matrix) -> sp.csr_matrix | None:
+        return sp.csr_matrix(expand.T @ (matrix @ expand)) if matrix.nnz else None
+
+    structural = own(given.structural_damping)
+    if g:
+        part = sp.csr_matrix(g * reduced.stiffness)
+        structural = part if structural is None else sp.csr_matrix(structural + part)
+    return HarmonicMatrices(
+        stiffness=reduced.stiffness,
+        mass=reduced.mass,
+        viscous=own(given.damping),
+        structural=structural,
+    )
+
+
+def _direct(
+    model: Structure,
+    hertz: Float64,
+    excitation: HarmonicExcitation,
+    options: Options,
+) -> Complex128:
+    """(f, g) displacements."""
+
+    def run() -> Complex128:
+        reduced = analysis_model(model, solver=options.solver)
+        pattern = reduced.load(excitation.pattern)
+        u = direct_response(
+            _matrices(model, reduced),
+            hertz,
+            lambda k: pattern @ excitation.factor[:, k],
+            solver=options.solver,
+            progress=options.console.progress("direct frequency response"),
+        )
+        return (reduced.expand @ u.T).T
+
+    try:
+        return run()
+    except SingularMatrixError as error:
+        raise InputError(f"{model.deck.path}: {_RESONANCE} ({error})") from None
+
+
+_RESONANCE = (
+    "frequency response: without damping, a frequency is that of a mode; expected "
+    "PARAM G, GE, dampers, or other frequencies"
+)
+
+
+def _modal(
+    model: Structure,
+    hertz: Float64,
+    excitation: HarmonicExcitation,
+    options: Options,
+) -> Complex128:
+    """(f, g) displacements."""
+    reduced, found = modes_of(model, options)
+    modes = retained_modes(model.deck, found)
+    options.console.say(mode_table(modes))
+    pattern = reduced.load(excitation.pattern)
+    asked = model.subcase.resvec or str(model.deck.param("RESVEC"))
+    if not asked.upper().startswith("NO"):
+        count = modes.count
+        modes = residual_vectors(
+            reduced.stiffness, reduced.mass, modes, pattern, solver=options.solver
+        )
+        options.console.say(f"{modes.count - count} residual vectors")
+    try:
+        amplitude = modal_response(
+            modes,
+            _matrices(model, reduced),
+            hertz,
+            modes.shape.T @ (pattern @ excitation.factor),
+            ratio=modal_ratios(model.deck, model.subcase, modes.frequency_hz),
+            hysteretic=int(model.deck.number("KDAMP")) < 0,
+        )
+    except np.linalg.LinAlgError:
+        raise InputError(f"{model.deck.path}: {_RESONANCE}") from None
+    return amplitude @ (reduced.expand @ modes.shape).T
+
+
+@dataclass(frozen=True)
+class _Written:
+    """Where complex results of a subcase go."""
+
+    model: Structure
+    results: ResultFile
+    name: str
+
+    def points(self, label: str, values: Complex128, quantity: str) -> None:
+        """(f, g) values of the points that are asked for."""
+        asked = wanted(self.model.subcase, quantity)
+        if asked != "NONE":
+            name = f"{self.name}/{label}"
+            self.results.write_points(name, self.model.points, values, asked)
+
+
+def _write(
+    model: Structure,
+    hertz: Float64,
+    excitation: HarmonicExcitation,
+    u_g: Complex128,
+    results: ResultFile,
+) -> None:
+    case, name = model.subcase, f"frequency/{model.subcase.id}"
+    results.write(f"{name}/frequency_hz", hertz)
+    out = _Written(model, results, name)
+    rate = 2j * np.pi * hertz[:, None]
+    motions = [q for q in _POWERS if wanted(case, q) != "NONE"]
+    if not motions:
+        results.write_points(f"{name}/displacement", model.points, u_g, "ALL")
+    for quantity in motions:
+        values = rate ** _POWERS[quantity] * u_g
+        out.points(quantity.lower(), values, quantity)
+    load = (excitation.pattern @ excitation.factor).T
+    out.points("applied_load", load, "OLOAD")
+    if {wanted(case, "SPCFORCES"), wanted(case, "MPCFORCES")} != {"NONE"}:
+        residual = _residual(model, rate, u_g) - load
+        spc = model.elimination.spc_force(residual.T).T
+        out.points("spc_force", spc, "SPCFORCES")
+        mpc = model.elimination.mpc_force(residual.T).T
+        out.points("mpc_force", mpc, "MPCFORCES")
+    for table in element_tables(
+        model.points, model.blocks, "force", wanted(case, "FORCE"), moving=True
+    ):
+        linear = (table.operator @ u_g.T).T
+        if table.rate is not None:
+            linear = linear + (table.rate @ (rate * u_g).T).T
+        # Forces are linear: both parts by themselves.
+        values = table.evaluate(linear.real) + 1j * table.evaluate(linear.imag)
+        results.write_table(f"{name}/element_force", table, values)
+
+
+def _residual(model: Structure, rate: Complex128, u_g: Complex128) -> Complex128:
+    """(f, g) forces of inertia, damping and stiffness."""
+    m, g = model.matrices, float(model.deck.number("G"))
+    force = (1.0 + 1j * g) * (m.stiffness @ u_g.T).T
+    force += 1j * (m.structural_damping @ u_g.T).T
+    force += rate**2 * (m.mass @ u_g.T).T
+    return force + rate * (m.damping @ u_g.T).T
+
+
+def _summary(model: Structure, hertz: Float64, u_g: Complex128) -> str:
+    """The largest translation, at which frequency and where."""
+    grids = len(model.points.grid_id)
+    moved = np.abs(u_g[:, : 6 * grids]).reshape(len(hertz), grids, 6)[:, :, :3]
+    text = f"frequency response, subcase {model.subcase.id}: {len(hertz)} frequencies"
+    if not moved.size:
+        return text
+    k, grid, component = np.unravel_index(int(moved.argmax()), moved.shape)
+    place = model.points.label(int(6 * grid + component))
+    return (
+        f"{text}, largest displacement {moved.max():.7g} at {hertz[k]:.7g} Hz, {place}"
+    )

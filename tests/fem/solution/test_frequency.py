@@ -1,0 +1,155 @@
+"""SOL 108 and 111: one degree of freedom, a beam in closed form, requests."""
+
+import h5py
+import numpy as np
+import pytest
+
+import fem
+from fem.errors import InputError
+from fem.files.export import export
+from fem.solution import run_deck
+
+OSCILLATOR = """\
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+CELAS2,1,1000.,1,1,2,1
+CDAMP2,2,.5,1,1,2,1
+CMASS2,3,2.,2,1
+SPC1,1,123456,1
+SPC1,1,23456,2
+RLOAD1,5,9,.01,30.,7,-2.
+RLOAD2,6,9,4,8,7,20.
+DLOAD,7,2.,1.,5,.5,6
+DAREA,9,2,1,10.
+DELAY,4,2,1,.02
+DPHASE,8,2,1,-40.
+TABLED1,7
+,0.,1.,100.,2.,ENDT
+FREQ1,3,1.,.5,10
+FREQ,3,3.2,5.1
+EIGRL,1,,,1
+"""
+CASE = "SPC = 1\nDLOAD = 5\nFREQUENCY = 3\nDISP = ALL\nMETHOD = 1\n"
+K, B, M, G = 1000.0, 0.5, 2.0, 0.04
+
+
+@pytest.fixture
+def solve(tmp_path):
+    def go(sol, case, bulk):
+        path = tmp_path / "deck.bdf"
+        path.write_text(f"SOL {sol}\nCEND\n{case}BEGIN BULK\n{bulk}\nENDDATA\n")
+        deck = fem.read_deck(path)
+        out = run_deck(deck, tmp_path / "deck.h5")
+        with h5py.File(out) as file:
+            found = {}
+            file.visititems(
+                lambda n, o: found.update({n: o[()]} if hasattr(o, "shape") else {})
+            )
+        return found, deck, out
+
+    return go
+
+
+def first(omega):
+    """RLOAD1 5."""
+    table = 1.0 + omega / (2.0 * np.pi) / 100.0
+    return 10.0 * (table - 2.0j) * np.exp(1j * (np.radians(30.0) - 0.01 * omega))
+
+
+def second(omega):
+    """RLOAD2 6."""
+    table = 1.0 + omega / (2.0 * np.pi) / 100.0
+    angle = np.radians(20.0 - 40.0) - 0.02 * omega
+    return 10.0 * table * np.exp(1j * angle)
+
+
+@pytest.mark.parametrize("sol", [108, 111])
+@pytest.mark.parametrize("dload", [5, 6, 7])
+def test_an_oscillator_follows_its_transfer_function(solve, sol, dload):
+    case = CASE.replace("DLOAD = 5", f"DLOAD = {dload}")
+    case += "ACCE = ALL\nSPCF = ALL\nFORCE = ALL\nOLOAD = ALL\n"
+    found = solve(sol, case, f"PARAM,G,{G}\n{OSCILLATOR}")[0]
+    hertz = found["frequency/1/frequency_hz"]
+    expected = np.unique([*(1.0 + 0.5 * np.arange(11)), 3.2, 5.1])
+    assert hertz == pytest.approx(expected)
+    omega = 2.0 * np.pi * hertz
+    parts = {5: first(omega), 6: second(omega)}
+    parts[7] = 2.0 * (parts[5] + 0.5 * parts[6])
+    spring = K * (1.0 + 1j * G) + 1j * omega * B
+    u = parts[dload] / (spring - omega**2 * M)
+    assert found["frequency/1/displacement"][:, 1, 0] == pytest.approx(u, rel=1e-9)
+    acceleration = found["frequency/1/acceleration"][:, 1, 0]
+    assert acceleration == pytest.approx(-(omega**2) * u, rel=1e-9)
+    assert found["frequency/1/spc_force"][:, 0, 0] == pytest.approx(-spring * u)
+    assert found["frequency/1/applied_load"][:, 1, 0] == pytest.approx(parts[dload])
+    damper = found["frequency/1/element_force/CDAMP2/value"][:, 0, 0]
+    assert np.abs(damper) == pytest.approx(np.abs(omega * B * u))
+
+
+def test_modal_damping_is_viscous_or_structural(solve):
+    bulk = OSCILLATOR.replace("CDAMP2,2,.5,1,1,2,1\n", "")
+    bulk += "TABDMP1,2,CRIT\n,0.,.05,100.,.05,ENDT\n"
+    own = np.sqrt(K / M)
+    for param, damping in (
+        ("", lambda omega: 0.1j * own * omega),
+        ("PARAM,KDAMP,-1\n", lambda omega: 0.1j * own**2),
+    ):
+        found = solve(111, f"{CASE}SDAMP = 2\n", param + bulk)[0]
+        omega = 2.0 * np.pi * found["frequency/1/frequency_hz"]
+        u = first(omega) / (M * (own**2 - omega**2 + damping(omega)))
+        assert found["frequency/1/displacement"][:, 1, 0] == pytest.approx(u, rel=1e-9)
+
+
+def test_a_cantilever_moves_as_the_wave_equation_says(solve):
+    """Tip of an Euler beam with structural damping under a harmonic force."""
+    length, young, inertia, area, rho, g = 1.0, 7e10, 2e-6, 0.01, 2700.0, 0.05
+    n = 20
+    bulk = "PARAM,COUPMASS,1\nPARAM,G,.05\nFREQ1,3,10.,30.,10\n"
+    bulk += "".join(f"GRID,{k + 1},,{k / n:.4f},0.,0.\n" for k in range(n + 1))
+    bulk += "".join(f"CBAR,{k},1,{k},{k + 1},0.,1.,0.\n" for k in range(1, n + 1))
+    bulk += f"PBAR,1,1,{area},{inertia},{inertia},1.-6\nMAT1,1,7.+10,,.3,2700.\n"
+    bulk += f"SPC1,1,123456,1\nDAREA,9,{n + 1},2,1.\nRLOAD1,5,9,,,1.\n"
+    found = solve(108, CASE, bulk)[0]
+    omega = 2.0 * np.pi * found["frequency/1/frequency_hz"]
+    stiff = young * inertia * (1.0 + 1j * g)
+    wave = (rho * area * omega**2 / stiff) ** 0.25
+    x = wave * length
+    flexible = np.sin(x) * np.cosh(x) - np.cos(x) * np.sinh(x)
+    flexible = flexible / (stiff * wave**3 * (1.0 + np.cos(x) * np.cosh(x)))
+    tip = found["frequency/1/displacement"][:, -1, 1]
+    assert tip == pytest.approx(flexible, rel=2e-4)
+
+
+def test_post_processors_find_complex_displacements(solve):
+    op2_module = pytest.importorskip("pyNastran.op2.op2")
+    found, deck, out = solve(108, CASE, OSCILLATOR)
+    files = export(out, deck, op2=True, paraview=True, say=lambda text: None)
+    op2 = op2_module.OP2(debug=None)
+    op2.read_op2(files[0])
+    table = op2.displacements[1]
+    ours = found["frequency/1/displacement"]
+    assert table.data == pytest.approx(ours.astype(np.complex64))
+    assert table._times == pytest.approx(found["frequency/1/frequency_hz"])
+
+
+@pytest.mark.parametrize(
+    ("sol", "case", "bulk", "message"),
+    [
+        (108, CASE.replace("FREQUENCY = 3\n", ""), OSCILLATOR, "needs FREQUENCY"),
+        (108, CASE.replace("DLOAD = 5\n", ""), OSCILLATOR, "needs DLOAD"),
+        (111, CASE.replace("METHOD = 1\n", ""), OSCILLATOR, "needs METHOD"),
+        (108, CASE.replace("= 3", "= 8"), OSCILLATOR, "FREQUENCY = 8 is not defined"),
+        (108, CASE, OSCILLATOR.replace("30.,7,-2.", "30.,7,-2.,DISP"), "enforced"),
+        (
+            108,
+            CASE,
+            OSCILLATOR.replace("CDAMP2,2,.5,1,1,2,1\n", "")
+            .replace("SPC1,1,123456,1", "SPC1,1,23456,1")
+            .replace("3.2,5.1", "0."),
+            "without damping",
+        ),
+    ],
+)
+def test_what_cannot_be_solved_is_named(solve, sol, case, bulk, message):
+    with pytest.raises(InputError, match=message):
+        solve(sol, case, bulk)
