@@ -1,8 +1,8 @@
 """Which panels buckle first: factors of the static cases of a landing's instants.
 
 The loads of an instant act at rest, balanced by rigid inertia, upon steady flight where
-that is known; (K + λ K_d) x = 0 gives the factors of all of it. The free airframe is
-held determinately, where its balanced loads leave no reaction. A mode belongs to the
+that is known; (K + λ K_d) x = 0 gives the factors of all of it, in mean axes where the
+airframe is free. A mode belongs to the
 element on whose internal forces it does most work: the panel is that element with those
 around it that do a good share. Of modes at the same place the lowest factor counts.
 
@@ -17,12 +17,11 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 import pandas as pd
-import scipy.sparse as sp
 
 from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.parts.inventory import Inventory
-from fem.algebra.buckling import Buckling, buckling_factors
-from fem.algebra.statics import determinate_rows, free_motions
+from fem.algebra.buckling import Buckling, FreeMotions, buckling_factors
+from fem.algebra.statics import free_motions
 from fem.model.differential import differential_stiffness, differential_work
 from fem.model.structure import Structure
 
@@ -90,25 +89,22 @@ def _solve(
     progress: Callable[[int, int], None],
 ) -> Arrays:
     """Factors and work of all modes of all cases, and the shape of the lowest."""
-    rows = np.arange(structure.size)
-    free = free_motions(structure.stiffness, structure.rigid_body)
-    keep = np.setdiff1d(rows, determinate_rows(free)) if free.shape[1] else rows
-    stiffness = sp.csr_matrix(structure.stiffness[keep][:, keep])
+    motions = free_motions(structure.stiffness, structure.rigid_body)
+    free = FreeMotions(motions, structure.mass @ motions)
     factors, cases, works, complete = [], [], [], True
     lowest, shape, ids = np.inf, np.zeros(structure.size), np.zeros(0, np.int64)
     for k, u in enumerate(state.T):
         u_g = structure.displacement(u)
         matrix = differential_stiffness(structure.points, structure.blocks, u_g)
-        reduced = structure.elimination.reduce(matrix)
         found: Buckling = buckling_factors(
-            stiffness,
-            sp.csr_matrix(reduced[keep][:, keep]),
+            structure.stiffness,
+            structure.elimination.reduce(matrix),
             count=count,
-            band=(0, None),
+            band=(0.0, None),
+            free=free,
         )
         complete &= all(c.complete for c in found.counts)
-        shapes = np.zeros((structure.size, len(found.factor)))
-        shapes[keep] = found.shape
+        shapes = found.shape
         ids, work = differential_work(
             structure.points, structure.blocks, u_g, structure.shape(shapes)
         )

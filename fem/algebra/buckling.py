@@ -5,6 +5,10 @@ the smallest |λ|, of both signs (a negative factor buckles under the reversed l
 They come by block Lanczos in the inner product of K, or densely. K + a K_d has as many
 negative eigenvalues as there are factors between 0 and a: that count shows that none
 was missed (Sylvester's law of inertia).
+
+A structure that moves freely under loads that balance buckles in mean axes: modes have
+no share of the rigid motions R, Rᵀ M x = 0. (Turned as a whole under loads that keep
+their directions it would gain or lose energy at once.)
 """
 
 from collections.abc import Callable
@@ -18,6 +22,7 @@ import scipy.sparse as sp
 from fem.algebra.eigenproblem import DENSE_LIMIT, Progress, look_again
 from fem.algebra.lanczos import BlockLanczos, RitzPairs
 from fem.algebra.linear_solver import SingularMatrixError, SolverName, factorize
+from fem.algebra.statics import determinate_rows
 from fem.algebra.sturm import count_below
 from fem.arrays import Float64
 
@@ -54,6 +59,30 @@ class FactorCount:
         )
 
 
+@dataclass(frozen=True)
+class FreeMotions:
+    """Motions of a structure that nothing holds.
+
+    Attributes:
+        motions: (n, r) R, without energy.
+        heavy: (n, r) M R.
+    """
+
+    motions: Float64
+    heavy: Float64
+
+    def balanced(self, load: Float64) -> Float64:
+        """Loads (n, k) with the inertia that balances them."""
+        return load - self.heavy @ self._solve(self.motions.T @ load)
+
+    def in_mean_axes(self, displacement: Float64) -> Float64:
+        """(n, k) without their share of the motions."""
+        return displacement - self.motions @ self._solve(self.heavy.T @ displacement)
+
+    def _solve(self, right: Float64) -> Float64:
+        return np.linalg.solve(self.motions.T @ self.heavy, right)
+
+
 @dataclass(frozen=True, kw_only=True)
 class Buckling:
     """Buckling factors, smallest magnitude first.
@@ -75,17 +104,19 @@ def buckling_factors(
     *,
     count: int | None = None,
     band: tuple[float | None, float | None] = (None, None),
+    free: FreeMotions | None = None,
     solver: SolverName | None = None,
     progress: Progress | None = None,
 ) -> Buckling:
     """Load factors λ with (K + λ K_d) x = 0.
 
     Args:
-        stiffness: (n, n) K, positive definite.
+        stiffness: (n, n) K, positive definite, but for free motions.
         differential: (n, n) K_d of the load.
         count: at most this many, the smallest in magnitude.
         band: (lowest, highest) λ; None stands for no limit. A count, or both limits,
             or one limit with the sign of the wanted factors is needed.
+        free: motions without energy, that modes have no share of.
         solver: as in `factorize`.
         progress: called with (converged, wanted).
 
@@ -99,7 +130,9 @@ def buckling_factors(
         raise ValueError("give a count of factors or limits")
     if not len(stiffness.indptr) - 1:
         return Buckling(factor=np.zeros(0), shape=np.zeros((0, 0)), counts=())
-    problem = _Problem(stiffness, differential, low, high, count, solver)
+    if free is not None and not free.motions.shape[1]:
+        free = None
+    problem = _Problem(stiffness, differential, low, high, count, free, solver)
     factors, shapes, known = (
         problem.dense() if problem.n <= DENSE_LIMIT else problem.iterate(progress)
     )
@@ -126,6 +159,7 @@ class _Problem:
     low: float
     high: float
     count: int | None
+    free: FreeMotions | None
     solver: SolverName | None
 
     @property
@@ -140,10 +174,16 @@ class _Problem:
     def dense(self) -> tuple[Float64, Float64, float]:
         """All factors."""
         k, kd = self.stiffness.toarray(), self.differential.toarray()
+        basis = None
+        if self.free is not None:
+            basis = scipy.linalg.null_space(self.free.heavy.T)
+            k, kd = (basis.T @ matrix @ basis for matrix in (k, kd))
         try:
             theta, shapes = scipy.linalg.eigh(-0.5 * (kd + kd.T), 0.5 * (k + k.T))
         except np.linalg.LinAlgError:
             raise SingularMatrixError(self._failing_row()) from None
+        if basis is not None:
+            shapes = basis @ shapes
         order = np.argsort(-np.abs(theta), kind="stable")
         theta = theta[order]
         there = np.abs(theta) > _NONE * np.abs(theta).max(initial=0.0)
@@ -159,10 +199,24 @@ class _Problem:
     def iterate(self, progress: Progress | None) -> tuple[Float64, Float64, float]:
         """Factors and shapes up to the last wanted one, and how far all are known."""
         tell = progress or (lambda done, wanted: None)
-        with factorize(self.stiffness, solver=self.solver) as factor:
+        free = self.free
+        held = np.zeros(0, np.int64)
+        if free is not None:
+            held = determinate_rows(free.motions)
+        keep = np.setdiff1d(np.arange(self.n), held)
+        inner = self.stiffness
+        if len(held):
+            inner = sp.csr_matrix(inner[keep][:, keep])
+        with factorize(inner, solver=self.solver) as factor:
 
             def operator(block: Float64) -> Float64:
-                return factor.solve(np.asfortranarray(-(self.differential @ block)))
+                load = -(self.differential @ block)
+                if free is None:
+                    return factor.solve(np.asfortranarray(load))
+                moved = np.zeros_like(load)
+                balanced = free.balanced(load)[keep]
+                moved[keep] = factor.solve(np.asfortranarray(balanced))
+                return free.in_mean_axes(moved)
 
             wanted = self.count or 8
             lanczos = BlockLanczos(
@@ -231,6 +285,7 @@ class _Problem:
                 self.stiffness,
                 sp.csr_matrix(-sign * self.differential),
                 limit,
+                constraint=None if self.free is None else self.free.heavy,
                 solver=self.solver,
             )
             found.append(FactorCount(sign * limit, counted, int(np.sum(own < limit))))

@@ -10,6 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.algebra.linear_solver import SingularMatrixError, SolverName, factorize
+from fem.arrays import Float64
 
 # Relative steps away from a shift that lies on an eigenvalue.
 _NUDGES = (0.0, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4)
@@ -47,13 +48,18 @@ def count_below(
     mass: sp.csr_matrix,
     eigenvalue: float,
     *,
+    constraint: Float64 | None = None,
     solver: SolverName | None = None,
 ) -> int:
     """Number of eigenvalues λ of K x = λ M x below a limit.
 
+    With constraints C'x = 0: the bordered matrix [A C; C' 0] has as many more negative
+    eigenvalues as there are constraints, and they are those of A and of -C' A⁻¹ C.
+
     Args:
         stiffness, mass: (n, n) K and M.
         eigenvalue: the limit s, rad²/s².
+        constraint: (n, r) C of full rank, None: all x.
         solver: as in `factorize`.
 
     Raises:
@@ -66,8 +72,13 @@ def count_below(
             with factorize(
                 sp.csr_matrix(stiffness - shift * mass), kind="symmetric", solver=solver
             ) as factor:
-                if factor.inertia is not None and factor.perturbed_pivots == 0:
+                if factor.inertia is None or factor.perturbed_pivots:
+                    continue
+                if constraint is None or not constraint.shape[1]:
                     return factor.inertia
+                schur = -constraint.T @ factor.solve(np.asfortranarray(constraint))
+                values = np.linalg.eigvalsh(0.5 * (schur + schur.T))
+                return factor.inertia + int(np.sum(values < 0.0)) - len(values)
         except SingularMatrixError as singular:
             error = singular
     raise error or SingularMatrixError(None)

@@ -17,6 +17,7 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
             "SESET SEELT SETREE SELABEL SEBSET SEBSET1 SECSET SECSET1 SEQSET SEQSET1 "
             "SESUP RELEASE",
         ),
+        ("Supports that a subcase selects", "SUPORT1"),
         (
             "Design optimisation",
             "DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN DTABLE "
