@@ -47,6 +47,13 @@ class Frame:
         local = (np.asarray(xyz, float) - self.origin) @ self.axes
         return self.axes @ local_triads(self.kind, local)
 
+    def on_axis(self, xyz: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """(...,) basic positions (..., 3) on the z axis of a C or S frame."""
+        local = (np.asarray(xyz, float) - self.origin) @ self.axes
+        if self.kind == "R":
+            return np.zeros(local.shape[:-1], bool)
+        return ~_off_axis(local)
+
 
 BASIC = Frame("R", np.zeros(3), np.eye(3))
 
@@ -74,7 +81,7 @@ def local_triads(kind: Kind, local: Float64) -> Float64:
         return triads
     x, y, z = local[..., 0], local[..., 1], local[..., 2]
     rho, r = np.hypot(x, y), np.sqrt(x * x + y * y + z * z)
-    off_axis = rho > _ON_AXIS * np.maximum(r, np.finfo(float).tiny)
+    off_axis = _off_axis(local)
     safe = np.where(off_axis, rho, 1.0)
     cos_phi, sin_phi = x / safe, y / safe
     zero, one = np.zeros_like(x), np.ones_like(x)
@@ -90,6 +97,13 @@ def local_triads(kind: Kind, local: Float64) -> Float64:
         ]
     turned = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
     return np.where(off_axis[..., None, None], turned, triads)
+
+
+def _off_axis(local: Float64) -> npt.NDArray[np.bool_]:
+    """(...,) local rectangular positions (..., 3) whose angle about z is defined."""
+    rho, r = np.hypot(local[..., 0], local[..., 1]), np.linalg.norm(local, axis=-1)
+    off: npt.NDArray[np.bool_] = rho > _ON_AXIS * np.maximum(r, np.finfo(float).tiny)
+    return off
 
 
 def frame_from_points(kind: Kind, a: Float64, b: Float64, c: Float64) -> Frame | None:

@@ -20,6 +20,7 @@ from fem.elements.registry import element_notices
 from fem.model.mass_sets import combination_story
 from fem.model.model import Model
 from fem.model.pieces import describe_pieces, unconnected_pieces
+from fem.model.points import axis_notices
 from fem.model.weight import rigid_modes
 
 if TYPE_CHECKING:
@@ -132,6 +133,7 @@ class FreeSet:
         deck, autospc = self.model.deck, self.support.autospc
         lines = [
             *deck.notices,
+            *axis_notices(deck, self.model.points),
             *element_notices(deck),
             *quality_notices(self.model.blocks),
             *describe_pieces(self.pieces),

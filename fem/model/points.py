@@ -42,3 +42,20 @@ def read_points(deck: Deck) -> Points:
         spoint_id=np.unique(deck.cards["SPOINT"]["id"].to_numpy(np.int64)),
         frames=frames,
     )
+
+
+def axis_notices(deck: Deck, points: Points) -> list[str]:
+    """Grids on the z axis of their displacement system, where r and theta are not."""
+    grid = deck.cards["GRID"].sort_values("id", kind="stable")
+    cd = grid["cd"].to_numpy(np.int64)
+    notices = []
+    for cid in np.unique(cd[cd > 0]).tolist():
+        own = cd == cid
+        there = points.grid_id[own][points.frames[cid].on_axis(points.xyz[own])]
+        notices += [
+            f"GRID {grid_id}: on the z axis of its displacement system CD {cid}, where "
+            "r and theta have no direction: its components are along the x and y axes "
+            "of that system"
+            for grid_id in there.tolist()
+        ]
+    return notices

@@ -108,11 +108,15 @@ def test_twisted_beam():
 
 
 def test_thin_twisted_beam_does_not_lock():
-    """Thickness 0.0032 (Belytschko 1989): 5256e-6 and 1294e-6 for a load of 1e-6."""
+    """Thickness 0.0032 (Belytschko 1989): 5256e-6 and 1294e-6 for a load of 1e-6.
+
+    What is missing on 12 x 2 is the mesh's: the error falls to a sixth on 24 x 4, and
+    is the same for any share of the residual flexibility that the twist takes.
+    """
     reference = np.array([5256e-6, 1294e-6])
     coarse, fine = (twisted_beam(n, thickness=0.0032) * 1e-6 for n in (1, 2))
-    np.testing.assert_allclose(coarse, reference, rtol=0.025)
-    np.testing.assert_allclose(fine, reference, rtol=5e-3)
+    np.testing.assert_allclose(coarse / reference, [0.978, 0.988], atol=2e-3)
+    np.testing.assert_allclose(fine / reference, [0.997, 0.996], atol=2e-3)
 
 
 def scordelis_lo(n, corners=4):
@@ -345,5 +349,6 @@ def test_cantilever_plate_between_the_solvers():
     assert (found < 1.001 * others.max(axis=0)).all()
     load = np.zeros((len(xyz), 6))
     load[50, 2] = 10.0
-    # NASTRAN-95 .001927512, OpenSees .001920661, CalculiX .001901791.
+    # NASTRAN-95 .001927512, OpenSees .001920661, CalculiX .001901791; meshes of ours
+    # four times as fine go to 1.0027 of the first, this one is at 1.0012.
     assert model.solve(load)[50, 2] == pytest.approx(0.001927512, rel=2e-3)

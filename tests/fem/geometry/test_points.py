@@ -8,7 +8,7 @@ import pytest
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.geometry.points import Points
-from fem.model.points import read_points
+from fem.model.points import axis_notices, read_points
 
 DECK = """\
 CORD2C,1,,0.,0.,0.,0.,0.,1.
@@ -79,3 +79,15 @@ def test_model_of_scalar_points_alone(tmp_path):
     assert points.size == 3
     assert points.basic_rotation().shape == (3, 3)
     assert points.label(1) == "scalar point 2"
+
+
+def test_grids_on_the_axis_of_their_system_are_said(tmp_path):
+    """There r and theta have no direction: x and y of the system serve."""
+    path = tmp_path / "a.bdf"
+    path.write_text(
+        "CORD2C,4,,1.,2.,3.,0.,0.,1.\n,0.,1.,0.\nGRID,7,,0.,0.,1.,4\n"
+        "GRID,8,,1.,0.,1.,4\nGRID,9,,0.,0.,1.\n"
+    )
+    deck = read_deck(path)
+    (notice,) = axis_notices(deck, read_points(deck))
+    assert notice.startswith("GRID 7: on the z axis of its displacement system CD 4")
