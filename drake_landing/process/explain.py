@@ -134,6 +134,7 @@ def _cost(structure: Structure) -> Cost:
 
 def _dry_run(case: Case, aircraft: Aircraft, structure: Structure) -> None:
     """Gears on the rigid airframe, at the start of the scenario."""
+    from drake_landing.landing.lifetime import used_once
     from drake_landing.landing.run import build_landing, start_state
 
     if any(_holds(gear) > 6 for gear in aircraft.gears):
@@ -147,8 +148,10 @@ def _dry_run(case: Case, aircraft: Aircraft, structure: Structure) -> None:
         aircraft.scenario,
         bushing=case.bushing,
     )
-    context = landing.diagram.CreateDefaultContext()
-    start_state(landing, context, aircraft.scenario, case.simulation.clearance)
+    with used_once(landing):
+        context = landing.diagram.CreateDefaultContext()
+        start_state(landing, context, aircraft.scenario, case.simulation.clearance)
+        del context
 
 
 def _holds(gear: LandingGear) -> int:

@@ -30,6 +30,7 @@ from drake_landing.files import write_csv
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import LandingHistory, gear_peaks
+from drake_landing.landing.lifetime import used_once
 from drake_landing.landing.run import build_landing, fast_mode_notices, fly
 from drake_landing.landing.settling import LIMIT, Settling, swing_of
 from drake_landing.parts import tables
@@ -292,7 +293,9 @@ def _fly(
         simulation.slow_modes_above,
         case.bushing,
     )
-    return fly(landing, aircraft.scenario, simulation, points, R_AB, progress, settling)
+    scenario = aircraft.scenario
+    with used_once(landing):
+        return fly(landing, scenario, simulation, points, R_AB, progress, settling)
 
 
 def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:

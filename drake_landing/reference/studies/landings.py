@@ -16,6 +16,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import gear_peaks
+from drake_landing.landing.lifetime import used_once
 from drake_landing.landing.run import build_landing, fly
 from systems.airframe.modal_body import ModalBody
 
@@ -120,7 +121,8 @@ def _fly(task: LandingTask) -> Arrays:
     landing = build_landing(
         task.body, aircraft.gears, points, R_AB, case.scenario, slow
     )
-    history = fly(landing, case.scenario, case.simulation, points, R_AB)
+    with used_once(landing):
+        history = fly(landing, case.scenario, case.simulation, points, R_AB)
     loads = history.attachment_loads().resampled(case.transient.step, task.duration)
     inside = np.minimum(loads.time, history.time[-1])
     acceleration = [
