@@ -7,6 +7,7 @@ import numpy.typing as npt
 from pydrake.systems.framework import DiagramBuilder, LeafSystem
 
 from systems.airframe.flexible_airframe import FlexibleAirframe
+from systems.tools.weak_methods import weakly
 
 
 class ModalRecovery(LeafSystem):
@@ -41,7 +42,7 @@ class ModalRecovery(LeafSystem):
         self.DeclareVectorOutputPort(
             "recovered",
             R.shape[0],
-            self._calc_recovered,
+            weakly(self._calc_recovered),
             prerequisites_of_calc={amplitudes.ticket()},
         )
 

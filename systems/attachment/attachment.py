@@ -34,6 +34,7 @@ from systems.attachment import attachment_solve
 from systems.attachment.attachment_points import AttachmentPoint, HoldPattern, Rows
 from systems.gear.gear_forces import spatial_forces
 from systems.tools.rotations import rotation_from_quaternion
+from systems.tools.weak_methods import weakly
 
 Float64 = npt.NDArray[np.float64]
 
@@ -119,10 +120,10 @@ class Attachment(LeafSystem):
         self._compliance = vector("node_compliance", 36 * k * k)
         self._airframe_pose = vector("airframe_pose", 7)
         self._gap: Any = self._entry(
-            "gap", self._calc_gap, {self._state, self._pose, self._velocity}
+            "gap", weakly(self._calc_gap), {self._state, self._pose, self._velocity}
         )
         self._wrench: Any = self._entry(
-            "wrench", self._calc_wrench, {self._gap, *self._sources()}
+            "wrench", weakly(self._calc_wrench), {self._gap, *self._sources()}
         )
         self._declare_outputs(k)
 
@@ -155,28 +156,28 @@ class Attachment(LeafSystem):
     def _declare_outputs(self, k: int) -> None:
         wrench, gap = {self._wrench.ticket()}, {self._gap.ticket()}
         vector = self.DeclareVectorOutputPort
-        vector("wrench_on_airframe", 6 * k, self._calc_on_airframe, wrench)
+        vector("wrench_on_airframe", 6 * k, weakly(self._calc_on_airframe), wrench)
         self.DeclareAbstractOutputPort(
             "wrench_on_gear",
             lambda: Value([ExternallyAppliedSpatialForce()]),
-            self._calc_on_gear,
+            weakly(self._calc_on_gear),
             wrench,
         )
         vector(
             "generalized_force_on_gear",
             self._plant.num_velocities(),
-            self._calc_generalized_on_gear,
+            weakly(self._calc_generalized_on_gear),
             wrench,
         )
         vector(
             "load_in_airframe_axes",
             6 * k,
-            self._calc_load_in_airframe_axes,
+            weakly(self._calc_load_in_airframe_axes),
             wrench | {self._airframe_pose.ticket()},
         )
-        vector("gap", 12 * k, self._calc_gap_port, gap)
-        vector("energy", 1, self._calc_energy, gap)
-        vector("dissipated_power", 1, self._calc_dissipated_power, gap)
+        vector("gap", 12 * k, weakly(self._calc_gap_port), gap)
+        vector("energy", 1, weakly(self._calc_energy), gap)
+        vector("dissipated_power", 1, weakly(self._calc_dissipated_power), gap)
 
     @abstractmethod
     def _sources(self) -> set:
@@ -285,8 +286,8 @@ class RigidAttachment(Attachment):
         self._context: Any = self.DeclareCacheEntry(
             "plant_context",
             ValueProducer(
-                allocate=lambda: Value(self._plant.CreateDefaultContext()),
-                calc=self._calc_context,
+                allocate=weakly(self._new_context),
+                calc=weakly(self._calc_context),
             ),
             {self._state.ticket()},
         )
@@ -297,6 +298,9 @@ class RigidAttachment(Attachment):
             self._acceleration,
             self._compliance,
         }
+
+    def _new_context(self) -> Value:
+        return Value(self._plant.CreateDefaultContext())
 
     def _calc_context(self, context, value) -> None:
         state = self._state.Eval(context)

@@ -23,6 +23,7 @@ from systems.tools.checks import require
 from systems.tools.scalar import Scalar, log, power
 from systems.tools.stops import contact_elastic, contact_energy, never_pulling
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 _E = math.e
 
@@ -149,9 +150,9 @@ def BogiePitch_(T):
             self._parameters = parameters
             self._pitch = self.DeclareVectorInputPort("pitch", 2)
             for name, calc in (
-                ("torque", self._calc_torque),
-                ("energy", self._calc_energy),
-                ("dissipated_power", self._calc_dissipated_power),
+                ("torque", weakly(self._calc_torque)),
+                ("energy", weakly(self._calc_energy)),
+                ("dissipated_power", weakly(self._calc_dissipated_power)),
             ):
                 self.DeclareVectorOutputPort(
                     name,

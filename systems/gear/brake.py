@@ -25,6 +25,7 @@ from systems.tools.checks import require
 from systems.tools.scalar import Scalar, sqrt
 from systems.tools.table import Table
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -138,8 +139,8 @@ def Brake_(T):
             if isinstance(parameters.torque, Table):
                 tickets.add(self.time_ticket())
             for name, calc in (
-                ("torque", self._calc_torque),
-                ("dissipated_power", self._calc_dissipated_power),
+                ("torque", weakly(self._calc_torque)),
+                ("dissipated_power", weakly(self._calc_dissipated_power)),
             ):
                 self.DeclareVectorOutputPort(
                     name, 1, calc, prerequisites_of_calc=tickets

@@ -18,6 +18,7 @@ from systems.shock_absorber.strut_law import (
     StrutLaw,
 )
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 StrutState = namedview("StrutState", ["stroke", "rate"])
 StrutComponents = namedview("StrutComponents", ["gas", "damping", "friction", "stops"])
@@ -71,15 +72,17 @@ def ShockAbsorber_(T):
             # The law is evaluated once for force, components and power.
             self._response = self.DeclareCacheEntry(
                 "law",
-                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
+                ValueProducer(
+                    allocate=lambda: Value(object()), calc=weakly(self._calc_law)
+                ),
                 everything,
             )
             law = {self._response.ticket()}
             for name, size, calc, tickets in (
-                ("force", 1, self._calc_force, law),
-                ("energy", 1, self._calc_energy, state),
-                ("dissipated_power", 1, self._calc_dissipated_power, law),
-                ("components", 4, self._calc_components, law),
+                ("force", 1, weakly(self._calc_force), law),
+                ("energy", 1, weakly(self._calc_energy), state),
+                ("dissipated_power", 1, weakly(self._calc_dissipated_power), law),
+                ("components", 4, weakly(self._calc_components), law),
             ):
                 self.DeclareVectorOutputPort(
                     name, size, calc, prerequisites_of_calc=tickets
@@ -88,7 +91,7 @@ def ShockAbsorber_(T):
                 self.DeclareVectorOutputPort(
                     "gas_pressure",
                     1,
-                    self._calc_gas_pressure,
+                    weakly(self._calc_gas_pressure),
                     prerequisites_of_calc=state,
                 )
 

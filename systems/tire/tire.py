@@ -18,6 +18,7 @@ from systems.runway.runway import Runway
 from systems.tire.tire_law import TireLaw, TireParameters
 from systems.tools.checks import require
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 TireContact = namedview(
     "TireContact", ["deflection", "F_z", "F_x", "F_y", "slip", "slip_angle"]
@@ -86,15 +87,17 @@ def Tire_(T):
             # The law is evaluated once for wrench, contact, power and lagged slips.
             self._contact = self.DeclareCacheEntry(
                 "law",
-                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
+                ValueProducer(
+                    allocate=lambda: Value(object()), calc=weakly(self._calc_law)
+                ),
                 everything,
             )
             law = {self._contact.ticket()}
             for name, size, calc, tickets in (
-                ("wrench", 6, self._calc_wrench, law),
-                ("contact", 6, self._calc_contact, law),
-                ("energy", 1, self._calc_energy, geometry),
-                ("dissipated_power", 1, self._calc_dissipated_power, law),
+                ("wrench", 6, weakly(self._calc_wrench), law),
+                ("contact", 6, weakly(self._calc_contact), law),
+                ("energy", 1, weakly(self._calc_energy), geometry),
+                ("dissipated_power", 1, weakly(self._calc_dissipated_power), law),
             ):
                 self.DeclareVectorOutputPort(
                     name, size, calc, prerequisites_of_calc=tickets

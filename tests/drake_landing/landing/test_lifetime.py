@@ -1,12 +1,14 @@
 """One diagram for many landings: memory stays where it is."""
 
 import gc
+import weakref
 
 import numpy as np
 import psutil
 import pytest
 
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
+from drake_landing.landing.lifetime import used_once
 from drake_landing.landing.initial_state import attitude
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
@@ -79,3 +81,17 @@ def test_a_context_does_not_remember_the_run_before():
     land(landing, duration=0.05, accuracy=1e-3, prepare=_vary(landing, 3))
     again = land(landing, duration=0.05, accuracy=1e-3)[name]
     assert np.array_equal(first, again)
+
+
+def test_a_diagram_that_is_used_once_goes():
+    """Diagram, plant and every system, those in Python too: nothing is left behind."""
+    landing = MakeLandingDiagram(aircraft_body(5), aircraft_gears())
+    with used_once(landing):
+        land(landing, duration=0.01, accuracy=1e-2)
+        parts = {s.get_name(): s for s in landing.diagram.GetSystems()}
+        parts["diagram"] = landing.diagram
+        alive = {name: weakref.ref(system) for name, system in parts.items()}
+        del parts
+    del landing
+    gc.collect()
+    assert [name for name, system in alive.items() if system() is not None] == []
