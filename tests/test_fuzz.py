@@ -1,7 +1,20 @@
 """A fast share of `make fuzz`."""
 
-from benchmarks.fuzz.__main__ import main
+import pytest
+
+from benchmarks.fuzz.__main__ import fuzz
+
+COUNTS = {"matrices": 60, "decks": 25, "campaigns": 12}
 
 
-def test_damaged_files_give_a_message_or_an_answer(capsys):
-    assert main(3.0, 1000) == 0, capsys.readouterr().out
+@pytest.mark.timeout(300)
+@pytest.mark.parametrize(("kind", "count"), COUNTS.items(), ids=COUNTS)
+def test_damaged_files_give_a_message_or_an_answer(kind, count, capsys):
+    assert fuzz(200.0, 1000, [kind], count) == 0, capsys.readouterr().out
+
+
+@pytest.mark.slow
+@pytest.mark.timeout(300)
+@pytest.mark.parametrize("kind", ["cases", "cpacs"])
+def test_damaged_files_of_slower_kinds(kind, capsys):
+    assert fuzz(200.0, 1000, [kind], 10) == 0, capsys.readouterr().out

@@ -1,88 +1,80 @@
-"""Damages matrix files, decks and cases for a time: tried, message, right, bad.
+"""Damages inputs of all kinds for a time: tried, message, right, bad.
 
-    python -m benchmarks.fuzz [SECONDS] [SEED]
+    python -m benchmarks.fuzz [SECONDS] [SEED] [KIND ...]
+    python -m benchmarks.fuzz disks [COUNT]
 
-What ends in neither a message nor an answer is kept in out/fuzz, with its seed in its
-name; the exit status is then 1.
+What ends in neither a message nor an answer, a crash or endless work included, is kept
+in out/fuzz under its kind and seed; the exit status is then 1.
 """
 
 import random
-import shutil
 import sys
 import tempfile
-import time
-import traceback
 from collections import Counter
+from collections.abc import Sequence
 from pathlib import Path
 
-from benchmarks.fuzz import matrices
-from benchmarks.fuzz.mutations import mutate_bytes
+from benchmarks.fuzz import full_disk
+from benchmarks.fuzz.kinds import KINDS
 from benchmarks.fuzz.outcome import Outcome
-from drake_landing.case.reading import load_case
-from fem.deck.reader import read_deck
-from fem.errors import InputError
+from benchmarks.fuzz.trials import attempts
 
-_CASES = Path(__file__).parents[2] / "cases"
 _KEPT = Path("out", "fuzz")
+_ENOUGH = 1_000_000  # seeds: the time ends before
 
 
-def _reading(read):
-    def outcome(path: Path) -> Outcome:
-        try:
-            read(path)
-        except InputError:
-            return Outcome.message
-        return Outcome.right
-
-    return outcome
+def _told(name: str, counts: Counter[Outcome]) -> None:
+    figures = ", ".join(f"{how.value} {counts[how]}" for how in Outcome)
+    print(f"{name}: tried {counts.total()}, {figures}", flush=True)
 
 
-def _changed(seed: Path, rng: random.Random, place: Path) -> None:
-    place.write_bytes(mutate_bytes(seed.read_bytes(), rng))
-
-
-def main(seconds: float, first: int) -> int:
-    """Exit status.
+def fuzz(
+    seconds: float, first: int, kinds: Sequence[str] = (), count: int = _ENOUGH
+) -> int:
+    """Attempts of every kind in turn; exit status.
 
     Args:
-        seconds: how long.
+        seconds: for all kinds together, in equal shares.
         first: seed.
+        kinds: which; default all.
+        count: of attempts of a kind, at most.
     """
-    found: dict[str, Counter[str]] = {}
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        good = folder / "good"
-        good.mkdir()
-        kinds = {
-            "matrices": (matrices.seeds(good), matrices.damaged, matrices.outcome),
-            "cases": (sorted(_CASES.glob("*.yaml")), _changed, _reading(load_case)),
-            "decks": ([_CASES / "commuter/wing.inc"], _changed, _reading(read_deck)),
-        }
-        end, seed = time.monotonic() + seconds, first
-        while time.monotonic() < end:
-            for kind, (seeds, damage, outcome) in kinds.items():
-                rng = random.Random(f"{kind}{seed}")
-                source = rng.choice(seeds)
-                place = folder / f"tried{source.suffix}"
-                damage(source, rng, place)
-                try:
-                    result = outcome(place)
-                except Exception:
-                    result = Outcome.bad
-                    print(f"{kind}, seed {seed}:\n{traceback.format_exc(limit=-3)}")
-                if result is Outcome.bad:
-                    _KEPT.mkdir(parents=True, exist_ok=True)
-                    shutil.copy(place, _KEPT / f"{kind}_{seed}{source.suffix}")
-                found.setdefault(kind, Counter())[result.value] += 1
-            seed += 1
-    print(f"seeds {first} to {seed - 1}")
-    for kind, counts in found.items():
-        figures = ", ".join(f"{o.value} {counts[o.value]}" for o in Outcome)
-        print(f"{kind}: tried {counts.total()}, {figures}")
-    return int(any(counts["bad"] for counts in found.values()))
+    bad = 0
+    for kind in kinds or KINDS:
+        counts: Counter[Outcome] = Counter()
+        share = seconds / len(kinds or KINDS)
+        for attempt in attempts(kind, first, count, _KEPT, seconds=share):
+            counts[attempt.outcome] += 1
+            if attempt.outcome is Outcome.bad:
+                print(f"{kind}, seed {attempt.seed}: {attempt.text}", flush=True)
+        _told(f"{kind}, seeds from {first}", counts)
+        bad += counts[Outcome.bad]
+    return int(bad > 0)
+
+
+def disks(count: int) -> int:
+    """Every command on disks that fill up; exit status."""
+    bad = 0
+    for command in full_disk.COMMANDS:
+        counts: Counter[Outcome] = Counter()
+        with tempfile.TemporaryDirectory() as folder:
+            tried = full_disk.attempts(command, count, random.Random(1), Path(folder))
+            for outcome, text in tried:
+                counts[outcome] += 1
+                if outcome is Outcome.bad:
+                    print(f"{command.name}: {text}", flush=True)
+        _told(command.name, counts)
+        bad += counts[Outcome.bad]
+    return int(bad > 0)
+
+
+def main(words: Sequence[str]) -> int:
+    """See the module."""
+    if words and words[0] == "disks":
+        return disks(int(words[1]) if len(words) > 1 else 20)
+    seconds = float(words[0]) if words else 1500.0
+    return fuzz(seconds, int(words[1]) if len(words) > 1 else 0, words[2:])
 
 
 if __name__ == "__main__":
-    length = float(sys.argv[1]) if len(sys.argv) > 1 else 1500.0
-    start = int(sys.argv[2]) if len(sys.argv) > 2 else 0
-    sys.exit(main(length, start))
+    sys.exit(main(sys.argv[1:]))

@@ -78,11 +78,13 @@ def _lie(path: Path, rng: random.Random) -> None:
         group[name][...] = table
 
 
-def outcome(path: Path) -> Outcome:
-    """Reads a file; matrices must be finite."""
+def outcome(path: Path) -> tuple[Outcome, str]:
+    """Reads a file; matrices must be finite, messages name the file."""
     try:
         found = read_matrices(path)
     except InputError as error:
-        return Outcome.message if str(path) in str(error) else Outcome.bad
+        if str(path) in str(error):
+            return Outcome.message, ""
+        return Outcome.bad, f"the file is not named: {error}"
     finite = all(np.isfinite(matrix.values).all() for matrix in found.values())
-    return Outcome.right if found and finite else Outcome.bad
+    return (Outcome.right, "") if found and finite else (Outcome.bad, "not finite")

@@ -36,6 +36,29 @@ def mutate_bytes(data: bytes, rng: random.Random) -> bytes:
     return data
 
 
+_ABSURD = [
+    *("0", "-1", "0.0", "1e-300", "1e300", "-1e300", "1e15", "-1e9", "1e9", "1e6"),
+    *("1000000000", "2147483648", "-2147483649", "99999999999999999999", "1e-9"),
+]
+
+
+def mutate_values(data: bytes, rng: random.Random) -> bytes:
+    """A file with one, two or three numbers that are absurd but finite.
+
+    Args:
+        data: of a good file.
+        rng: decides all.
+    """
+    for _ in range(rng.choice([1, 1, 2, 3])):
+        found = list(_NUMBER.finditer(data))
+        if not found:
+            return data
+        match = rng.choice(found)
+        new = rng.choice(_ABSURD).encode()
+        data = data[: match.start()] + new + data[match.end() :]
+    return data
+
+
 def _flip(data: bytes, rng: random.Random) -> bytes:
     changed = bytearray(data)
     for _ in range(rng.choice([1, 3, 10])):

@@ -330,7 +330,7 @@ class Simulation(Section):
         gt=0,
         le=1e-2,
     )
-    max_step: float = number("largest step", "s", 5e-3, gt=0, le=0.1)
+    max_step: float = number("largest step", "s", 5e-3, ge=1e-9, le=0.1)
     slow_modes_above: float | None = Field(
         default=None,
         gt=0,

@@ -8,8 +8,8 @@ import psutil
 import pytest
 
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
-from drake_landing.landing.lifetime import used_once
 from drake_landing.landing.initial_state import attitude
+from drake_landing.landing.lifetime import used_once
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.drake_landing.landing_run import land
 from tests.systems.synthetic_body import NOSE_TIP, aircraft_body
