@@ -81,7 +81,7 @@ def _failure(error: BaseException) -> int:
     if isinstance(error, BrokenPipeError) or _pipe_of(error):
         return _NOBODY_READS
     if isinstance(error, OSError):
-        return _say(f"error: {_place(error)}", 1 if _by_system(error) else 2)
+        return _say(f"error: {_place(error)}", 1 if of_the_system(error) else 2)
     if isinstance(error, MemoryError):
         return _say(f"error: out of memory: {error}".rstrip(": "), 1)
     if (show := getattr(error, "show", None)) is not None:  # usage, from click
@@ -112,9 +112,9 @@ def _place(error: OSError) -> str:
     return place + (error.strerror or str(error) or type(error).__name__)
 
 
-def _by_system(error: OSError) -> bool:
+def of_the_system(error: BaseException) -> bool:
     """Disk full, quota, read-only, files beyond a limit: no fault of the input."""
-    return error.errno in _OF_THE_SYSTEM
+    return isinstance(error, OSError) and error.errno in _OF_THE_SYSTEM
 
 
 def _pipe_of(error: BaseException) -> bool:

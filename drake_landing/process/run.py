@@ -54,6 +54,7 @@ from drake_landing.transient.extremes import worst_elements
 from drake_landing.transient.practices import rigid
 from drake_landing.transient.step_error import expected_step_error
 from fem.errors import by_kind
+from fem.exit_status import of_the_system
 from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
 
@@ -113,7 +114,9 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     )
 
     swing = swing_of(float(shapes.frequency_hz[shapes.elastic].min(initial=np.inf)))
-    flight = _fly_and_respond(case, aircraft, airframe, swing, cache, stages, practices)
+    flight = _fly_and_respond(
+        case, aircraft, airframe, swing, out, cache, stages, practices
+    )
     history, loads, full = flight.history, flight.loads, flight.full
     stages.begin("writing the deck of the transient")
     deck = out / "landing_sol109.bdf"
@@ -225,6 +228,7 @@ def _fly_and_respond(
     aircraft: Aircraft,
     airframe: AirframeModel,
     swing: float,
+    out: Path,
     cache: Cache,
     stages: Stages,
     practices: bool,
@@ -237,7 +241,9 @@ def _fly_and_respond(
     at_least = 0.0
     while True:
         settling = Settling(swing=swing, at_least=at_least)
-        flight = _once(case, aircraft, airframe, settling, cache, stages, practices)
+        flight = _once(
+            case, aircraft, airframe, settling, out, cache, stages, practices
+        )
         end = flight.history.time[-1]
         open_end = case.simulation.duration == "auto" and not case.transient.duration
         if flight.late.empty or not open_end or end >= LIMIT:
@@ -250,6 +256,7 @@ def _once(
     aircraft: Aircraft,
     airframe: AirframeModel,
     settling: Settling,
+    out: Path,
     cache: Cache,
     stages: Stages,
     practices: bool,
@@ -258,6 +265,7 @@ def _once(
     first = compilation_remark()
     stages.begin("landing", f"(elastic modes in the multibody model: {body.n}{first})")
     history = _fly(case, aircraft, body, simulation, stages.progress, settling)
+    write_landing(history, out)
     histories = [history]
     if practices:
         stages.begin("landing with a rigid airframe")
@@ -337,15 +345,27 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
 
 @contextmanager
 def _at_most_lost(what: str, lost: list[str]) -> Iterator[None]:
-    """What goes wrong with a picture costs the picture, not the report."""
+    """What goes wrong with a picture costs the picture, not the report.
+
+    A full disk is no matter of the picture.
+    """
     try:
         yield
     except Exception as error:
+        if of_the_system(error):
+            raise
         lost.append(f"{what} could not be made: {type(error).__name__}: {error}")
 
 
+def write_landing(history: LandingHistory, out: Path) -> None:
+    """CSV tables of the landing alone: what is interrupted later keeps them."""
+    write_history_csv(out / "attachment_loads.csv", history.attachment)
+    write_history_csv(out / "tyres.csv", history.tyre)
+    write_history_csv(out / "struts.csv", history.strut)
+
+
 def write_files(result: ProcessResult, out: Path) -> None:
-    """results.h5 and the CSV tables."""
+    """results.h5 and the CSV tables, but those of the landing."""
     history, parts = result.history, result.parts
     ultimate = result.case.parts.ultimate_factor
     write_results(
@@ -397,8 +417,5 @@ def write_files(result: ProcessResult, out: Path) -> None:
         write_csv(out / "buckling.csv", units.with_units(panels))
     if result.practices is not None:
         write_csv(out / "practices.csv", units.with_units(result.practices.table))
-    write_history_csv(out / "attachment_loads.csv", history.attachment)
-    write_history_csv(out / "tyres.csv", history.tyre)
-    write_history_csv(out / "struts.csv", history.strut)
     write_history_csv(out / "accelerations_multibody.csv", result.multibody_on_grid)
     write_history_csv(out / "accelerations_transient.csv", result.response)

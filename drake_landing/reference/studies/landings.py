@@ -2,8 +2,10 @@
 
 import multiprocessing
 import os
-from collections.abc import Callable, Sequence
+import signal
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -106,12 +108,31 @@ def fly_all(
         for i in missing:
             keep(i, _fly(tasks[i]))
     else:
-        context = multiprocessing.get_context("spawn")
-        with ProcessPoolExecutor(workers, mp_context=context) as pool:
+        with _processes(workers) as pool:
             futures = {pool.submit(_fly, tasks[i]): i for i in missing}
             for future in as_completed(futures):
                 keep(futures[future], future.result())
     return [_result(found[i]) for i in range(len(tasks))]
+
+
+@contextmanager
+def _processes(count: int) -> Iterator[ProcessPoolExecutor]:
+    """Processes that end with the work, also where it is interrupted."""
+    context = multiprocessing.get_context("spawn")
+    pool = ProcessPoolExecutor(count, context, initializer=_leave_interrupts)
+    try:
+        yield pool
+    except BaseException:
+        for process in list(pool._processes.values()):
+            process.terminate()
+        pool.shutdown(wait=False, cancel_futures=True)
+        raise
+    pool.shutdown()
+
+
+def _leave_interrupts() -> None:
+    """Ctrl-C reaches all processes of a terminal; the one that waits for us acts."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _fly(task: LandingTask) -> Arrays:
