@@ -99,7 +99,12 @@ COMMANDS = (
 )
 
 
-def _inputs(folder: Path) -> None:
+def write_inputs(folder: Path) -> None:
+    """A case, a campaign and a deck that all commands can do with.
+
+    Args:
+        folder: for them.
+    """
     source = _TESTS / "drake_landing"
     shutil.copy(source / "tiny_aircraft.bdf", folder)
     case = (source / "tiny_case.yaml").read_text()
@@ -223,7 +228,7 @@ def attempts(
     given, first, out = folder / "given", folder / "first", folder / "out"
     for place in (given, first, out):
         place.mkdir()
-    _inputs(given)
+    write_inputs(given)
     status, message = _run(command, given, first)
     if status:
         yield Outcome.bad, f"with room enough: {message[-600:]}"

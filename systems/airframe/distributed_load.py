@@ -28,6 +28,7 @@ from systems.airframe.modal_body import ModalBody
 from systems.tools.checks import require
 from systems.tools.rotations import rotation_from_quaternion
 from systems.tools.table import Table
+from systems.tools.weak_methods import weakly
 
 Float64 = npt.NDArray[np.float64]
 
@@ -142,15 +143,17 @@ class DistributedLoad(LeafSystem):
             force_tickets.add(self.time_ticket())
         self._now: Any = self.DeclareCacheEntry(
             "force",
-            ValueProducer(allocate=lambda: Value(object()), calc=self._calc_now),
+            ValueProducer(
+                allocate=lambda: Value(object()), calc=weakly(self._calc_now)
+            ),
             force_tickets,
         )
         now = {self._now.ticket()}
         state = {self._pose.ticket(), self._amplitudes.ticket()}
         vector = self.DeclareVectorOutputPort
-        vector("load", 6 + body.n, self._calc_load, now | state)
-        vector("force", 1, self._calc_force, now)
-        vector("node_force", len(w), self._calc_node_force, now)
+        vector("load", 6 + body.n, weakly(self._calc_load), now | state)
+        vector("force", 1, weakly(self._calc_force), now)
+        vector("node_force", len(w), weakly(self._calc_node_force), now)
 
     def set_factor(self, context: Context, factor: float) -> None:
         """Sets the factor on the force in a context of this system."""

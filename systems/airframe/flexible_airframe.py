@@ -23,6 +23,7 @@ from pydrake.systems.framework import (
 from systems.airframe import modal_dynamics
 from systems.airframe.modal_body import ModalBody
 from systems.airframe.modal_kinematics import Nodes, mode_scales, node_motion
+from systems.tools.weak_methods import weakly
 
 Float64 = npt.NDArray[np.float64]
 
@@ -121,59 +122,73 @@ class FlexibleAirframe(LeafSystem):
             return self.DeclareCacheEntry(name, producer, set(tickets))
 
         state = self.xc_ticket()
-        self._motion = entry("motion", self._calc_motion, state)
+        self._motion = entry("motion", weakly(self._calc_motion), state)
         motion = self._motion.ticket()
         self._free = entry(
             "free_acceleration",
-            self._calc_free,
+            weakly(self._calc_free),
             motion,
             self._external.ticket(),
             self.numeric_parameter_ticket(self._gravity),
         )
         self._loaded = entry(
             "acceleration",
-            self._calc_loaded,
+            weakly(self._calc_loaded),
             motion,
             self._free.ticket(),
             self._wrench.ticket(),
         )
-        self._monitor_motion = entry("monitor_motion", self._calc_monitor_motion, state)
+        self._monitor_motion = entry(
+            "monitor_motion", weakly(self._calc_monitor_motion), state
+        )
 
     def _declare_node_ports(self, k: int) -> None:
         motion = {self._motion.ticket()}
         free = {self._motion.ticket(), self._free.ticket()}
         loaded = {self._motion.ticket(), self._loaded.ticket()}
         declare = self.DeclareVectorOutputPort
-        declare("node_pose", 12 * k, self._calc_node_pose, motion)
-        declare("node_velocity", 6 * k, self._calc_node_velocity, motion)
-        declare("node_compliance", 36 * k * k, self._calc_node_compliance, motion)
+        declare("node_pose", 12 * k, weakly(self._calc_node_pose), motion)
+        declare("node_velocity", 6 * k, weakly(self._calc_node_velocity), motion)
         declare(
-            "node_free_acceleration", 6 * k, self._calc_node_free_acceleration, free
+            "node_compliance", 36 * k * k, weakly(self._calc_node_compliance), motion
         )
-        declare("node_acceleration", 6 * k, self._calc_node_acceleration, loaded)
+        declare(
+            "node_free_acceleration",
+            6 * k,
+            weakly(self._calc_node_free_acceleration),
+            free,
+        )
+        declare(
+            "node_acceleration", 6 * k, weakly(self._calc_node_acceleration), loaded
+        )
 
     def _declare_monitor_ports(self, k: int) -> None:
         motion = {self._monitor_motion.ticket()}
         loaded = motion | {self._loaded.ticket()}
         declare = self.DeclareVectorOutputPort
-        declare("monitor_pose", 12 * k, self._calc_monitor_pose, motion)
-        declare("monitor_velocity", 6 * k, self._calc_monitor_velocity, motion)
-        declare("monitor_acceleration", 6 * k, self._calc_monitor_acceleration, loaded)
+        declare("monitor_pose", 12 * k, weakly(self._calc_monitor_pose), motion)
+        declare("monitor_velocity", 6 * k, weakly(self._calc_monitor_velocity), motion)
+        declare(
+            "monitor_acceleration",
+            6 * k,
+            weakly(self._calc_monitor_acceleration),
+            loaded,
+        )
 
     def _declare_state_ports(self) -> None:
         state = {self.xc_ticket()}
         declare = self.DeclareVectorOutputPort
-        declare("pose", 7, self._calc_pose, state)
-        declare("velocity", 6, self._calc_velocity, state)
-        declare("modal_rates", self.n, self._calc_modal_rates, state)
-        declare("modal_amplitudes", self.n, self._calc_modal_amplitudes, state)
-        declare("dissipated_power", 1, self._calc_dissipated_power, state)
+        declare("pose", 7, weakly(self._calc_pose), state)
+        declare("velocity", 6, weakly(self._calc_velocity), state)
+        declare("modal_rates", self.n, weakly(self._calc_modal_rates), state)
+        declare("modal_amplitudes", self.n, weakly(self._calc_modal_amplitudes), state)
+        declare("dissipated_power", 1, weakly(self._calc_dissipated_power), state)
         external = state | {self._external.ticket()}
-        declare("external_power", 1, self._calc_external_power, external)
+        declare("external_power", 1, weakly(self._calc_external_power), external)
         declare(
             "energy",
             1,
-            self._calc_energy,
+            weakly(self._calc_energy),
             state | {self.numeric_parameter_ticket(self._gravity)},
         )
 

@@ -39,6 +39,7 @@ from systems.airframe.modal_body import ModalBody
 from systems.tools.checks import require
 from systems.tools.rotations import rotation_from_quaternion
 from systems.tools.table import Table
+from systems.tools.weak_methods import weakly
 
 Float64 = npt.NDArray[np.float64]
 
@@ -157,13 +158,15 @@ class QuasiSteadyLift(LeafSystem):
         tickets |= {self.numeric_parameter_ticket(self._reference), self.time_ticket()}
         if self._lag > 0.0:
             tickets.add(self.xc_ticket())
-        producer = ValueProducer(allocate=lambda: Value(object()), calc=self._calc_lift)
+        producer = ValueProducer(
+            allocate=lambda: Value(object()), calc=weakly(self._calc_lift)
+        )
         self._lift: Any = self.DeclareCacheEntry("lift", producer, tickets)
         lift = {self._lift.ticket()}
         vector = self.DeclareVectorOutputPort
-        vector("load", 6 + n, self._calc_load, lift)
-        vector("force", 1, self._calc_force, lift)
-        vector("node_force", len(self.nodes), self._calc_node_force, lift)
+        vector("load", 6 + n, weakly(self._calc_load), lift)
+        vector("force", 1, weakly(self._calc_force), lift)
+        vector("node_force", len(self.nodes), weakly(self._calc_node_force), lift)
 
     def set_factor(self, context: Context, factor: float) -> None:
         """Sets the factor on all of the lift in a context of this system."""

@@ -14,6 +14,7 @@ over q, even at the ends.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MethodType
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 from systems.tools.compiled import compiled_law
 from systems.tools.scalar import Scalar
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
@@ -136,7 +138,9 @@ def ElasticLegs_(T):
             )
             self._law: Any = self.DeclareCacheEntry(
                 "law",
-                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_law),
+                ValueProducer(
+                    allocate=lambda: Value(object()), calc=weakly(self._calc_law)
+                ),
                 {self._state.ticket()},
             )
 
@@ -145,7 +149,12 @@ def ElasticLegs_(T):
                     name, size, calc, prerequisites_of_calc={ticket}
                 )
 
-            declare("generalized_force", self._nv, self._calc_force, self._law.ticket())
+            declare(
+                "generalized_force",
+                self._nv,
+                weakly(self._calc_force),
+                self._law.ticket(),
+            )
             for i, name in enumerate(("energy", "dissipated_power"), start=1):
                 declare(name, 1, self._number_port(i), self._law.ticket())
             for name, leg in legs.items():
@@ -163,18 +172,18 @@ def ElasticLegs_(T):
             output.SetFromVector(self._law.Eval(context)[0])
 
         def _number_port(self, i: int):
-            def calc(context, output):
+            def calc(self, context, output):
                 output.SetAtIndex(0, self._law.Eval(context)[i])
 
-            return calc
+            return weakly(MethodType(calc, self))
 
         def _deflection_port(self, rows: list[int], kinds: list[int]):
-            def calc(context, output):
+            def calc(self, context, output):
                 angles = np.array([T(0.0)] * 3)
                 angles[kinds] = self._state.Eval(context)[rows]
                 output.SetFromVector(angles)
 
-            return calc
+            return weakly(MethodType(calc, self))
 
     return Impl
 

@@ -17,6 +17,7 @@ from pydrake.systems.framework import (
 from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 
 @TemplateSystem.define("EnergyBudget_", T_list=(float, AutoDiffXd))
@@ -74,8 +75,8 @@ def EnergyBudget_(T):
             self._context: Any = self.DeclareCacheEntry(
                 "plant_context",
                 ValueProducer(
-                    allocate=lambda: Value(self._plant.CreateDefaultContext()),
-                    calc=self._calc_context,
+                    allocate=weakly(self._new_context),
+                    calc=weakly(self._calc_context),
                 ),
                 {self._state.ticket()},
             )
@@ -84,12 +85,15 @@ def EnergyBudget_(T):
                 self._context.ticket()
             }
             vector = self.DeclareVectorOutputPort
-            vector("dissipated", 1, self._calc_dissipated, integrals)
-            vector("supplied", 1, self._calc_supplied, integrals)
-            vector("total", 1, self._calc_total, sources | integrals)
+            vector("dissipated", 1, weakly(self._calc_dissipated), integrals)
+            vector("supplied", 1, weakly(self._calc_supplied), integrals)
+            vector("total", 1, weakly(self._calc_total), sources | integrals)
 
         def _construct_copy(self, other, converter=None):
             Impl._construct(self, *other._given, converter=converter)
+
+        def _new_context(self) -> Value:
+            return Value(self._plant.CreateDefaultContext())
 
         def _calc_context(self, context, value) -> None:
             state = self._state.Eval(context)

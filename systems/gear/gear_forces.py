@@ -19,6 +19,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.gear.lever_strut import LeverStrut
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 
 @TemplateSystem.define("GearForces_", T_list=(float, AutoDiffXd))
@@ -101,7 +102,7 @@ def GearForces_(T):
             self.DeclareAbstractOutputPort(
                 "spatial_forces",
                 lambda: Value([ExternallyAppliedSpatialForce_[T]()]),
-                self._calc_spatial_forces,
+                weakly(self._calc_spatial_forces),
                 prerequisites_of_calc={port.ticket() for port in self._tires},
             )
             joint_loads = {
@@ -110,14 +111,14 @@ def GearForces_(T):
             self.DeclareVectorOutputPort(
                 "generalized_force",
                 self._nv,
-                self._calc_generalized_force,
+                weakly(self._calc_generalized_force),
                 prerequisites_of_calc=joint_loads or {self.nothing_ticket()},
             )
             tires = {port.ticket() for port in (*self._tires, self._jacobian)}
             self.DeclareVectorOutputPort(
                 "all_generalized_force",
                 self._nv,
-                self._calc_all_generalized_force,
+                weakly(self._calc_all_generalized_force),
                 prerequisites_of_calc=joint_loads | tires,
             )
 

@@ -5,6 +5,7 @@ alone and their inputs can be logged.
 """
 
 from collections.abc import Mapping
+from types import MethodType
 from typing import Any
 
 import numpy as np
@@ -26,6 +27,7 @@ from systems.gear.joint_tree import JointTree
 from systems.gear.lever_strut import LeverGeometry, LeverStrut
 from systems.tools.scalar import sqrt
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 Strut = PrismaticJoint | LeverStrut
 
@@ -85,19 +87,21 @@ def WheelKinematics_(T):
             self._context: Any = self.DeclareCacheEntry(
                 "plant_context",
                 ValueProducer(
-                    allocate=lambda: Value(self._plant.CreateDefaultContext()),
-                    calc=self._calc_context,
+                    allocate=weakly(self._new_context),
+                    calc=weakly(self._calc_context),
                 ),
                 state,
             )
             self._motion: Any = self.DeclareCacheEntry(
                 "motion",
-                ValueProducer(allocate=lambda: Value(object()), calc=self._calc_motion),
+                ValueProducer(
+                    allocate=lambda: Value(object()), calc=weakly(self._calc_motion)
+                ),
                 state,
             )
             motion = {self._motion.ticket()}
             size = 6 * len(wheels) * plant.num_velocities()
-            self._declare("wheel_jacobian", size, self._calc_jacobian, motion)
+            self._declare("wheel_jacobian", size, weakly(self._calc_jacobian), motion)
             for i, name in enumerate(wheels):
                 self._declare(f"wheel_{name}", 12, self._motion_port(0, i), motion)
             for name, strut in struts.items():
@@ -133,32 +137,32 @@ def WheelKinematics_(T):
             self._declare(f"strut_ratio_{name}", 1, ratio, state)
 
         def _motion_port(self, part: int, i: int):
-            def calc(context, output):
+            def calc(self, context, output):
                 output.SetFromVector(self._motion.Eval(context)[part][i])
 
-            return calc
+            return weakly(MethodType(calc, self))
 
         def _rows_port(self, rows: list[int]):
-            def calc(context, output):
+            def calc(self, context, output):
                 output.SetFromVector(self._state.Eval(context)[rows])
 
-            return calc
+            return weakly(MethodType(calc, self))
 
         def _lever_port(self, row: int, rate: int, geometry: LeverGeometry):
-            def calc(context, output):
+            def calc(self, context, output):
                 state = self._state.Eval(context).tolist()
                 ratio = geometry.ratio(state[row])
                 stroke = geometry.stroke(state[row])
                 output.SetFromVector([stroke, ratio * state[rate]])
 
-            return calc
+            return weakly(MethodType(calc, self))
 
         def _ratio_port(self, row: int, geometry: LeverGeometry):
-            def calc(context, output):
+            def calc(self, context, output):
                 angle = self._state.Eval(context).tolist()[row]
                 output.SetAtIndex(0, geometry.ratio(angle))
 
-            return calc
+            return weakly(MethodType(calc, self))
 
         def _lever_axis_port(self, strut: LeverStrut):
             joint = self._plant.get_joint(strut.joint.index())
@@ -168,7 +172,7 @@ def WheelKinematics_(T):
                 for end in (strut.p_upper, strut.p_lower)
             ]
 
-            def calc(context, output):
+            def calc(self, context, output):
                 of_plant = self._context.Eval(context)
                 upper, lower = (
                     frame.CalcPoseInWorld(of_plant).multiply(end).translation()
@@ -178,7 +182,10 @@ def WheelKinematics_(T):
                 length = sqrt(x * x + y * y + z * z)
                 output.SetFromVector([x / length, y / length, z / length])
 
-            return calc
+            return weakly(MethodType(calc, self))
+
+        def _new_context(self) -> Value:
+            return Value(self._plant.CreateDefaultContext())
 
         def _calc_context(self, context, value):
             state = self._state.Eval(context)

@@ -17,6 +17,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 from systems.tools.compiled import compiled_law
 from systems.tools.scalar import Scalar, sqrt
 from systems.tools.template import default_instantiation
+from systems.tools.weak_methods import weakly
 
 
 @TemplateSystem.define("SideLoad_", T_list=(float, AutoDiffXd))
@@ -64,7 +65,7 @@ def SideLoad_(T):
             self.DeclareVectorOutputPort(
                 "side_load",
                 3,
-                self._calc_side_load,
+                weakly(self._calc_side_load),
                 prerequisites_of_calc={port.ticket() for port in ports},
             )
 
