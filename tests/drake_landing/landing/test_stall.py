@@ -11,7 +11,7 @@ from drake_landing.landing.run import LandingError, build_landing, fly
 from tests.drake_landing.landing_gears import aircraft_gears, changed
 from tests.systems.synthetic_body import aircraft_body
 
-FEW = 300  # steps: enough for these, the limit itself takes half a minute
+FEW = 60  # steps: enough for these, the limit itself takes half a minute
 
 
 def stopped(gears, monkeypatch, **simulation) -> str:
