@@ -4,6 +4,7 @@ Exit states are those of `fem.exit_status`. Heavy packages are imported by the c
 that need them.
 """
 
+import shlex
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -102,35 +103,43 @@ def run(
 def new(
     case: Annotated[Path, typer.Argument(metavar="CASE.yaml", help="file to write")],
     deck: Annotated[Path, typer.Option("--deck", help="Nastran deck of the airframe")],
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """Writes a commented case for a deck: units, axes, points, gears to begin with."""
     from drake_landing.process.new_case import new_case
+    from fem.deck.source import include_reach
     from fem.errors import InputError
     from fem.files.aside import write_aside
 
     _expect_deck(deck)
     if case.exists():
         raise InputError(f"{case}: is there already, and is left as it is")
-    text = new_case(deck, case)
+    with include_reach(include_path or [], trust=trust):
+        text = new_case(deck, case)
     write_aside(case, lambda to: to.write_text(text, encoding="utf-8") and None)
-    print(f"{case}: replace what is marked GUESS, then drake-landing check {case}")
+    again = shlex.quote(str(case))
+    print(f"{case}: replace what is marked GUESS, then drake-landing check {again}")
 
 
 @app.command()
 def conditions(
     case: Annotated[Path, typer.Argument(help="case file (YAML)")],
     out: Annotated[Path | None, _out("out/conditions/<name of the case>")] = None,
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """Ground-load conditions of CS-25 or CS-23 as balanced static cases."""
     from drake_landing.case.reading import load_case
     from drake_landing.process.conditions import run_conditions, summary
     from drake_landing.progress import reporter
+    from fem.deck.source import include_reach
     from fem.files.folders import claim
 
     loaded = load_case(case)
     folder = out or Path("out", "conditions", loaded.name)
     folder = claim(folder, f"conditions {loaded.name}")
-    with reporter() as progress:
+    with include_reach(include_path or [], trust=trust), reporter() as progress:
         result = run_conditions(loaded, folder, progress)
     print(summary(result, loaded, folder))
 
@@ -182,7 +191,8 @@ def check(
     if everything:
         print(f"\nall values, defaults included:\n\n{case_text(checked)}", end="")
     else:
-        print(f"run it: drake-landing run {case}; all its values: check --all {case}")
+        name = shlex.quote(str(case))
+        print(f"run it: drake-landing run {name}; all its values: check --all {name}")
 
 
 @app.command()
@@ -284,13 +294,17 @@ def campaign(
         Path | None,
         typer.Option("--compare", help="folder of another campaign: what grew"),
     ] = None,
+    include_path: Reach = None,
+    trust: Trust = False,
 ) -> None:
     """Many landings: stress of every element, envelopes, critical cases; goes on."""
     from drake_landing.campaign.command import campaign_command
     from drake_landing.campaign.engine import Pool
+    from fem.deck.source import include_reach
 
     pool = Pool(scheduler=scheduler, workers=workers, memory_gb=memory)
-    failed = campaign_command(file, out, pool, report or [], compare)
+    with include_reach(include_path or [], trust=trust):
+        failed = campaign_command(file, out, pool, report or [], compare)
     if failed:
         raise typer.Exit(3)
 

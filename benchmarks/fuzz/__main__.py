@@ -1,7 +1,7 @@
 """Damages inputs of all kinds for a time: tried, message, right, bad.
 
     python -m benchmarks.fuzz [SECONDS] [SEED] [KIND ...]
-    python -m benchmarks.fuzz disks [COUNT]
+    python -m benchmarks.fuzz disks|signals|races [COUNT]
 
 What ends in neither a message nor an answer, a crash or endless work included, is kept
 in out/fuzz under its kind and seed; the exit status is then 1.
@@ -14,7 +14,7 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
-from benchmarks.fuzz import full_disk
+from benchmarks.fuzz import full_disk, signals
 from benchmarks.fuzz.kinds import KINDS
 from benchmarks.fuzz.outcome import Outcome
 from benchmarks.fuzz.trials import attempts
@@ -68,10 +68,28 @@ def disks(count: int) -> int:
     return int(bad > 0)
 
 
+def processes(what: str, count: int) -> int:
+    """Every command interrupted, or doubled; exit status."""
+    trial = {"signals": signals.interrupted, "races": signals.races}[what]
+    bad = 0
+    for name in signals.COMMANDS:
+        counts: Counter[Outcome] = Counter()
+        with tempfile.TemporaryDirectory() as folder:
+            for outcome, text in trial(name, count, random.Random(1), Path(folder)):
+                counts[outcome] += 1
+                if outcome is Outcome.bad:
+                    print(f"{name}: {text}", flush=True)
+        _told(f"{what}, {name}", counts)
+        bad += counts[Outcome.bad]
+    return int(bad > 0)
+
+
 def main(words: Sequence[str]) -> int:
     """See the module."""
     if words and words[0] == "disks":
         return disks(int(words[1]) if len(words) > 1 else 20)
+    if words and words[0] in ("signals", "races"):
+        return processes(words[0], int(words[1]) if len(words) > 1 else 12)
     seconds = float(words[0]) if words else 1500.0
     return fuzz(seconds, int(words[1]) if len(words) > 1 else 0, words[2:])
 

@@ -124,6 +124,8 @@ def _child(kind: str, first: int, count: int, folder: Path) -> None:
         try:
             chosen.damage(source, rng, place)
             outcome, text = chosen.outcome(place)
+        except ImportError:
+            raise
         except Exception:
             outcome, text = Outcome.bad, traceback.format_exc(limit=-6)
         found = {"seed": seed, "outcome": outcome.value, "text": text}

@@ -1,5 +1,6 @@
 """`drake-landing campaign`: from the file to the folder of results, in words."""
 
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -78,7 +79,7 @@ def explain_campaign(campaign: Campaign) -> str:
         f"  confirmed   {campaign.confirm.sample} drawn at random and at most "
         f"{campaign.confirm.most} that decide: {confirmed} direct transients of "
         f"{steps:.0f} steps in blocks of {campaign.confirm.block}\n"
-        f"run it: drake-landing campaign {campaign.places.file}"
+        f"run it: drake-landing campaign {shlex.quote(campaign.places.file)}"
     )
 
 

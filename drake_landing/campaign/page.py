@@ -3,6 +3,7 @@
 import base64
 import json
 import math
+import shlex
 from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
@@ -103,6 +104,7 @@ def _floats(values: Any) -> str:
 
 def _data(result: CampaignResult, tables: Tables) -> dict[str, Any]:
     cases, campaign = tables["cases"], result.campaign
+    name = campaign.places.file or campaign.name
     failures = cases.loc[cases.remark != "", ["case", "status", "remark"]]
     return {
         "cases": _frame(cases),
@@ -114,7 +116,7 @@ def _data(result: CampaignResult, tables: Tables) -> dict[str, Any]:
         "failures": _frame(failures),
         "exceedance": _curves(tables["exceedance"]),
         "reports": _reports(result),
-        "command": f"drake-landing campaign {campaign.places.file or campaign.name}",
+        "command": f"drake-landing campaign {shlex.quote(name)}",
     }
 
 

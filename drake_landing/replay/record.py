@@ -41,6 +41,12 @@ if TYPE_CHECKING:
 
 Float64 = npt.NDArray[np.float64]
 
+# Nothing is fetched, of the page itself or of what a name might bring in.
+_POLICY = (
+    '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
+    "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:; "
+    'connect-src data: blob:; font-src data:; worker-src blob:">'
+)
 _FRAMES_PER_SECOND = 16.0
 _SECONDS = 8.0  # of the replay
 _FACTORS = (1.0, 2.0, 5.0, 10.0, 20.0, 50.0)
@@ -305,6 +311,7 @@ def _captioned(html: str, caption: str) -> str:
         "background:rgba(255,255,255,.85);color:#2b3440;font:14px sans-serif"
     )
     note = f'<div style="{style}">{escape(caption)}</div></body>'
+    html = html.replace("<head>", f"<head>\n{_POLICY}", 1)
     head, _, tail = html.rpartition("</body>")
     title = f"<title>{escape(caption.split(':')[0])}</title>"
     return (head + note + tail).replace("<title>Drake MeshCat</title>", title)

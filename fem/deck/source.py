@@ -7,6 +7,7 @@ number and size of files are limited.
 """
 
 import os
+import shlex
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -142,8 +143,8 @@ def _check_reach(file: Path, home: Path, place: str) -> None:
         return
     raise InputError(
         f"{place}: INCLUDE of {file}, outside the folder of the deck; if that is "
-        f"meant: --include-path {resolved.parent}, airframe.include_paths of a case, "
-        "or --trust"
+        f"meant: --include-path {shlex.quote(str(resolved.parent))}, "
+        "airframe.include_paths of a case, or --trust"
     )
 
 

@@ -36,7 +36,7 @@ def claim(folder: Path, maker: str, work: str = "") -> Path:
 
     Raises:
         InputError: the folder holds results of something else, somebody else writes
-            into it, or it is a file.
+            into it, it is a file, or a folder in it is a link.
     """
     if folder.exists() and not folder.is_dir():
         raise InputError(f"--out: {folder} is a file, expected a folder")
@@ -48,11 +48,24 @@ def claim(folder: Path, maker: str, work: str = "") -> Path:
             "overwrite them; give another folder, or delete this one"
         )
     folder.mkdir(parents=True, exist_ok=True)
+    _refuse_links(folder)
     _lock(folder.resolve() / _lock_name(work), folder)
     _sweep(folder)
     with written_aside(mark) as part:
         part.write_text(maker + "\n", encoding="utf-8")
     return folder
+
+
+def _refuse_links(folder: Path) -> None:
+    """Results go into a folder, not to where a link in it leads."""
+    for place, names, _ in os.walk(folder):
+        for name in names:
+            path = Path(place, name)
+            if path.is_symlink():
+                raise InputError(
+                    f"--out: {path} is a link to {path.readlink()}, expected a folder "
+                    "of its own; give another folder, or remove the link"
+                )
 
 
 def _maker(mark: Path) -> str:

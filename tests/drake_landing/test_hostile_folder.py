@@ -1,0 +1,152 @@
+"""A folder of somebody else's is opened: nothing outside of it and `--out` is touched.
+
+Every file that Python opens is reported by an audit hook, in a process of its own.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from fem.errors import InputError
+from fem.files.folders import claim
+
+HERE = Path(__file__).parent
+AUDIT = """
+import json, os, sys
+
+opened = []
+
+def hook(event, arguments):
+    if event == "open" and isinstance(arguments[0], (str, bytes)):
+        flags = arguments[2] or 0
+        writes = bool(flags & (os.O_WRONLY | os.O_RDWR | os.O_CREAT))
+        opened.append((os.path.abspath(os.fsdecode(arguments[0])), writes))
+    elif event in ("os.rename", "os.remove", "os.mkdir", "os.rmdir", "os.symlink"):
+        opened.append((os.path.abspath(os.fsdecode(arguments[0])), True))
+    elif event == "socket.connect":
+        opened.append((f"socket {arguments[1]}", True))
+
+sys.addaudithook(hook)
+from fem.exit_status import exit_status
+if sys.argv[1] == "fem":
+    from fem.cli import app
+else:
+    from drake_landing.cli import app
+status = exit_status(app, "x", sys.argv[2:])
+found = list(opened)
+print(json.dumps({"status": status, "opened": found}), file=sys.__stdout__)
+"""
+
+
+def audited(program: str, *words: object, cwd: Path) -> tuple[int, list, str]:
+    """Status, (path, whether it was written) of all files, standard error."""
+    done = subprocess.run(
+        [sys.executable, "-c", AUDIT, program, *map(str, words)],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=cwd,
+        env={
+            **os.environ,
+            "PYTHONPATH": str(HERE.parents[1]),
+            "DRAKE_LANDING_CACHE": "off",
+            "TMPDIR": str(cwd / "scratch"),
+            "NUMBA_DISABLE_JIT": "1",  # its machine code goes to the user's cache
+        },
+    )
+    told = json.loads(done.stdout.splitlines()[-1])
+    return told["status"], told["opened"], done.stderr
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Path:
+    """`given` is the hostile folder; `outside` holds what it wants."""
+    for name in ("given", "outside", "scratch", "outside/kept"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "outside" / "secret").write_text("GRID,77,,1.,2.,3.\n")
+    deck = (HERE / "tiny_aircraft.bdf").read_text()
+    given = tmp_path / "given"
+    given.joinpath("tiny_aircraft.bdf").write_text(deck)
+    given.joinpath("case.yaml").write_text((HERE / "tiny_case.yaml").read_text())
+    for name in ("../outside/secret", "a/../../outside/secret", "link"):
+        text = deck.replace("ENDDATA", f"INCLUDE '{name}'\nENDDATA")
+        text = text if "INCLUDE" in text else f"{text}\nINCLUDE '{name}'\n"
+        given.joinpath(f"reads_{Path(name).name}_{len(name)}.bdf").write_text(text)
+    (given / "link").symlink_to(tmp_path / "outside" / "secret")
+    (given / "a").mkdir()
+    return tmp_path
+
+
+def outside(opened: list, place: Path) -> list:
+    return [path for path, _ in opened if path.startswith(str(place / "outside"))]
+
+
+def written(opened: list, *allowed: Path) -> list:
+    """What was written elsewhere."""
+    places = (*map(str, allowed), "/dev/")
+    return [path for path, writes in opened if writes and not path.startswith(places)]
+
+
+def state(folder: Path) -> dict:
+    return {str(p): p.read_bytes() if p.is_file() else b"" for p in folder.rglob("*")}
+
+
+def test_no_deck_reads_what_lies_outside(place: Path) -> None:
+    for deck in sorted((place / "given").glob("reads_*.bdf")):
+        status, opened, told = audited("fem", deck, "--out", place / "out", cwd=place)
+        assert status == 2, told
+        assert "outside the folder of the deck" in told
+        assert "77" not in told
+        assert outside(opened, place) == []
+        assert written(opened, place / "out", place / "scratch") == []
+
+
+def test_results_replace_links_and_do_not_follow_them(place: Path) -> None:
+    out, secret = place / "out", place / "outside" / "secret"
+    out.mkdir()
+    for name in ("tiny_aircraft.h5", "tiny_aircraft.op2", ".made-by", ".lock-x"):
+        (out / name).symlink_to(secret)
+    before = state(place / "outside")
+    deck = place / "given" / "tiny_aircraft.bdf"
+    status, opened, told = audited("fem", deck, "--op2", "--out", out, cwd=place)
+    assert status == 0, told
+    assert state(place / "outside") == before
+    assert outside(opened, place) == []
+    assert written(opened, out, place / "scratch") == []
+    assert not (out / "tiny_aircraft.h5").is_symlink()
+
+
+def test_a_link_in_place_of_a_folder_is_refused(place: Path) -> None:
+    out = place / "out"
+    out.mkdir()
+    (out / "pictures").symlink_to(place / "outside" / "kept")
+    with pytest.raises(InputError, match="pictures is a link to"):
+        claim(out, "run tiny")
+
+
+def test_a_check_writes_nothing(place: Path) -> None:
+    before = state(place / "given")
+    status, opened, told = audited(
+        "drake-landing", "check", place / "given" / "case.yaml", cwd=place
+    )
+    assert status == 0, told
+    assert outside(opened, place) == []
+    assert written(opened, place / "scratch") == []
+    assert state(place / "given") == before
+
+
+@pytest.mark.slow
+def test_a_run_writes_into_its_folder_alone(place: Path) -> None:
+    before = state(place / "given")
+    out = place / "out"
+    status, opened, told = audited(
+        "drake-landing", "run", place / "given" / "case.yaml", "--out", out, cwd=place
+    )
+    assert status == 0, told
+    assert outside(opened, place) == []
+    assert written(opened, out, place / "scratch") == []
+    assert state(place / "given") == before
