@@ -16,7 +16,10 @@ axes:
   gears.main_*.tyre.stiffness: [4.0e+5, 5.0e+5]
   scenario.pitch: {distribution: norm, values: {loc: 1, scale: 1}, low: 0, high: 3}
 samples: 2
-table: {file: table.csv, columns: {speed: scenario.forward_speed}}
+table:
+  file: table.csv
+  source: measured
+  columns: {speed: scenario.forward_speed}
 confirm: {sample: 2, most: 1}
 """
 

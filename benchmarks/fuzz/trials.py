@@ -115,6 +115,12 @@ def _child(kind: str, first: int, count: int, folder: Path) -> None:
     os.dup2(nowhere, 1)
     chosen = KINDS[kind]
     seeds = chosen.seeds(folder)
+    for source in {*seeds}:  # else a message would be no merit
+        outcome, text = chosen.outcome(source)
+        if outcome is not Outcome.right:
+            found = {"seed": first, "outcome": "bad", "text": f"{source.name}: {text}"}
+            print(json.dumps(found), file=tell)
+            sys.exit(1)
     resource.setrlimit(resource.RLIMIT_AS, (_BYTES, resource.RLIM_INFINITY))
     for seed in range(first, first + count):
         rng = random.Random(f"{kind}{seed}")
