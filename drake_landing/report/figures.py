@@ -96,7 +96,7 @@ def force_over_stroke(history: LandingHistory) -> str:
             for i, gear in enumerate(group):
                 table, axes = history.strut[gear], grid[0][i]
                 curve(axes, table["stroke"], factor * table["force"], SERIES[i])
-                finish(axes, f"{words(gear)}: force", unit, x="stroke, m")
+                finish(axes, f"{words(gear)}: shock absorber", unit, x="stroke, m")
             pictures.append(svg(figure, f"force over stroke of {', '.join(group)}"))
     return "\n".join(pictures)
 

@@ -164,14 +164,15 @@ def _axes(result: "ProcessResult") -> Section:
     return Section(
         id="axes",
         title="Axes, units, signs, mass",
-        text="All on this page and in the files is along the axes x, y, z of the "
-        f"deck's basic frame ({deck_axes(R_AB)}) and in SI units (m, kg, s, N, Pa), "
-        "whatever the units of the deck, unless the line itself says otherwise. "
-        "Aircraft directions (aft, starboard, up) are those of the level aircraft and "
-        "turn with it. Loads, accelerations and stresses are increments to the steady "
-        "flight before touchdown where nothing else is said; all are limit loads, "
-        "without a factor. Accelerations are those of the motion: an accelerometer "
-        "shows 1 g upward more. Time counts from the start of the run.",
+        text="All in this report and in the files is along the axes x, y, z of the "
+        f"deck's basic frame ({deck_axes(R_AB)}), which is fixed to the airframe and "
+        "pitches, rolls and yaws with it, and in SI units (m, kg, s, N, Pa; kN and MPa "
+        "where a heading says so), whatever the units of the deck. Aft, starboard and "
+        "up are directions of the airframe, too; those of the runway are named. Loads, "
+        "accelerations and stresses are increments to the steady flight before "
+        "touchdown where nothing else is said; all are limit loads, without a factor. "
+        "Accelerations are those of the motion: an accelerometer shows 1 g upward "
+        "more. Time counts from the start of the run.",
         blocks=[
             Block(svg=sketch, caption="The arrows start at the deck's origin."),
             pairs_block(_mass_pairs(result), "Mass, gears extended"),
@@ -289,7 +290,8 @@ def _accelerations(result: "ProcessResult") -> Section:
                 shown,
                 _AGREEMENT,
                 _AGREEMENT_FORMATS,
-                "Multibody against direct transient; errors relative to the latter",
+                "Multibody against direct transient: peaks are the largest magnitudes "
+                "of either sign, errors are relative to the transient",
             ),
         ],
     )

@@ -18,6 +18,7 @@ from drake_landing.report.plots import (
     common_scale,
     curve,
     finish,
+    head,
     legend,
     panels,
     svg,
@@ -70,7 +71,7 @@ def section_envelopes(
     named = _without_rounding(cuts.named(loads))
     beam = cuts.beam
     shown = _shown(named)
-    with panels(1, len(shown), height=2.3) as (figure, grid):
+    with panels(1, len(shown), height=2.6) as (figure, grid):
         for axes, q in zip(grid[0], shown):
             quantity, values = NAMED[q], named[..., q]
             factor, unit = common_scale([values], _UNITS[quantity])
@@ -82,8 +83,8 @@ def section_envelopes(
                 axes.plot(beam.stations, edge, color=TRANSIENT, marker="o", ms=2.2)
             label, then = f"at {time[instant]:.3f} s", factor * values[instant]
             curve(axes, beam.stations, then, INK, label, dashed=True)
-            name = f"{beam.name}: {quantity}"
-            finish(axes, name, unit, x=f"cut at {beam.axis} of the deck, m")
+            finish(axes, quantity, unit, x=f"cut at {beam.axis} of the deck, m")
+        head(figure, f"{beam.name}: along the part")
         legend(figure, grid[0][0])
         return svg(figure, f"section loads along the {beam.name}")
 
@@ -100,7 +101,7 @@ def root_histories(
         _without_rounding(cuts.named(case.sections[name][:, at])) for _, case in cases
     ]
     shown = _shown(np.stack(roots))
-    with panels(1, len(shown), height=2.2) as (figure, grid):
+    with panels(1, len(shown), height=2.5) as (figure, grid):
         for axes, q in zip(grid[0], shown):
             quantity, histories = NAMED[q], [root[:, q] for root in roots]
             factor, unit = common_scale(histories, _UNITS[quantity])
@@ -118,8 +119,9 @@ def root_histories(
                     color=INK,
                     label=STATIC,
                 )
-            finish(axes, f"{_part(name, where)}: {quantity}", unit)
+            finish(axes, quantity, unit)
             axes.set_xlim(found.time[0], found.time[-1])
+        head(figure, f"{_part(name, where)}: over time")
         legend(figure, grid[0][0])
         return svg(figure, f"section loads over time, {name}")
 

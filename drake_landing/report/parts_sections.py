@@ -23,6 +23,7 @@ SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
 Picture = tuple[Path, str]
 # Beams whose loads differ less are mirror images and are shown once.
 _ALIKE = 0.01
+MINUS = "\N{MINUS SIGN}"  # no line is broken after it
 _NOUGHT = 1e-6  # of the largest of all parts: rounding
 
 _COMPONENT = {
@@ -110,7 +111,8 @@ def _stresses(
         ]
     text = (
         "Direct transient, all elements at all steps. Equivalent: von Mises of the "
-        "sheet itself, the larger of both fibres; of bars the largest direct stress. "
+        "sheet itself, the larger of both fibres; of bars the largest direct stress, "
+        "without torsion. "
         f"Places are those of the deck ({deck_axes(result.airframe.R_AB)}). "
     )
     if "margin" not in unknown:
@@ -244,7 +246,9 @@ def _section_loads(result: "ProcessResult") -> Section:
         loads = found.landing.sections[name]
         named = np.abs(cuts.named(loads))
         if size[name] <= nought:
-            left_out.append(f"{name} (nought by symmetry)")
+            left_out.append(
+                f"{name} (its shear, bending and torsion are nought by symmetry)"
+            )
             continue
         twin = next((n for n, other in shown if _alike(named, other)), None)
         if twin is not None:
@@ -272,8 +276,9 @@ def _section_loads(result: "ProcessResult") -> Section:
         f"{_points_said(found)}. Shaded: extremes over time; dashed: when bending at "
         "the cut below is largest. The equilibrium of the whole airframe is missed by "
         f"{found.imbalance[0]:.0e} of the largest applied force and "
-        f"{found.imbalance[1]:.0e} of the moment.{also} All six components: "
-        "results.h5, group parts/sections; extremes: section_loads.csv.",
+        f"{found.imbalance[1]:.0e} of the moment.{also} All six components, "
+        "fore-and-aft shear and bending among them: results.h5, group parts/sections; "
+        "extremes: section_loads.csv.",
         blocks=blocks,
     )
 
@@ -342,19 +347,19 @@ def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
     table["cut"] = [f"{row.axis} = {row.station:z.2f} m" for row in table.itertuples()]
     table["acts"] = [
         f"{row.quantity} {'along' if row.quantity == 'shear' else 'about'} "
-        f"{row.direction}"
+        f"{row.direction.replace('-', MINUS)}"
         for row in table.itertuples()
     ]
     heads = {
         "beam": "part",
         "cut": "cut at",
-        "point_x": "about x m",
+        "point_x": "point x m",
         "point_y": "y m",
         "point_z": "z m",
         "acts": "quantity",
-        "min": "least kN, kN m",
+        "min": "least kN or kN m",
         "time_of_min": "at s",
-        "max": "largest kN, kN m",
+        "max": "largest kN or kN m",
         "time_of_max": "at s ",
     }
     formats = {"min": ".1f", "max": ".1f"}

@@ -141,6 +141,11 @@ def finish(axes: Axes, title: str, unit: str, *, x: str | None = "time, s") -> N
     axes.axhline(0.0, color=FAINT, linewidth=0.7, zorder=1)
 
 
+def head(figure: Figure, text: str) -> None:
+    """What all panels of a figure are of, above them at the left."""
+    figure.suptitle(text, x=0.005, ha="left", fontsize="medium", fontweight="bold")
+
+
 def legend(figure: Figure, axes: Axes) -> None:
     """One legend for all panels, above them, out of the curves' way."""
     handles, labels = axes.get_legend_handles_labels()
