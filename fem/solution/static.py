@@ -1,7 +1,7 @@
 """SOL 101: subcases with the same supports are solved as one block."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
@@ -76,7 +76,9 @@ def static_solutions(
         InputError: as `solve_statics`.
     """
     solved: dict[int, StaticSolution] = {}
-    for group in _with_same_support(c for c in subcases if not c.combination):
+    relief = bool(int(structure.deck.param("INREL")))
+    single = (c for c in subcases if not c.combination)
+    for group in _with_same_support(single, relief=relief):
         model = structure.with_subcase(group[0])
         free = [free_motions(model.deck, model.points, model.blocks, c) for c in group]
         load, eliminations = _loads(model, group, free, options)
@@ -135,8 +137,15 @@ def _summary(
     return text + f"sum of SPC forces {x:.7g} {y:.7g} {z:.7g}"
 
 
-def _with_same_support(subcases: Iterable[Subcase]) -> Iterator[list[Subcase]]:
-    for _, group in groupby(subcases, key=system_of):
+def _with_same_support(
+    subcases: Iterable[Subcase], *, relief: bool
+) -> Iterator[list[Subcase]]:
+    """Subcases that one factor of K serves; masses differ where nothing is relieved."""
+
+    def system(case: Subcase) -> tuple:
+        return system_of(case if relief else replace(case, massset=0))
+
+    for _, group in groupby(subcases, key=system):
         yield list(group)
 
 
@@ -169,8 +178,9 @@ def _loads(
                 f"{model.deck.path}: subcase {subcase.id} selects no LOAD and enforces "
                 "no displacement, temperatures move nothing; there is nothing to solve"
             )
+        mass = model.with_subcase(subcase).matrices.mass if subcase.load else None
         load = (
-            static_load(model.deck, model.points, subcase.load, model.matrices.mass)
+            static_load(model.deck, model.points, subcase.load, mass)
             if subcase.load
             else np.zeros(model.points.size)
         )

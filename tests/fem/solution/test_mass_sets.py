@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import fem
+from fem.algebra import statics
 from fem.deck.units import in_si, units_of
 from fem.errors import InputError
 from fem.solution import run_deck
@@ -147,7 +148,16 @@ def test_what_does_not_fit_is_named(tmp_path, changes, message):
     assert any(message in text for text in error.value.problems)
 
 
-def test_inertia_relief_and_gravity_follow_the_mass(tmp_path):
+def test_gravity_follows_the_mass_with_one_factor_of_the_stiffness(
+    tmp_path, monkeypatch
+):
+    factors, factorize = [], statics.factorize
+
+    def counted(matrix, **options):
+        factors.append(matrix)
+        return factorize(matrix, **options)
+
+    monkeypatch.setattr(statics, "factorize", counted)
     case = "LOAD = 7\nSUBCASE 1\n MASSSET = 10\nSUBCASE 2\n MASSSET = 20\n"
     path = deck(tmp_path, case, base=BASE + "GRAV,7,,10.,1.,0.,0.\n")
     path.write_text(path.read_text().replace("SOL 103", "SOL 101"))
@@ -156,3 +166,4 @@ def test_inertia_relief_and_gravity_follow_the_mass(tmp_path):
         moved = [file[f"static/{k}/displacement"][:, 0] for k in (1, 2)]
     assert moved[0] == pytest.approx([0.04, 0.04], rel=1e-12)
     assert moved[1] == pytest.approx([0.16, 0.04], rel=1e-12)
+    assert len(factors) == 1
