@@ -59,6 +59,13 @@ def stress_of(folder: Path, number: int) -> tuple[dict[str, Float64], bool]:
         return {k: np.asarray(v, float) for k, v in file["stress"].items()}, confirmed
 
 
+def equivalent_of(folder: Path, number: int) -> Float64:
+    """(e,) best known equivalent stress of a landing, Pa."""
+    path = confirmed_file(folder, number)
+    with h5py.File(path if path.is_file() else case_file(folder, number)) as file:
+        return np.asarray(file["stress/equivalent"], float)
+
+
 def largest(folder: Path, numbers: Sequence[int], elements: int) -> Largest:
     """Over all landings: confirmed values where there are any, else screened ones."""
     found = Largest(

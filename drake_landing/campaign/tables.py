@@ -27,10 +27,15 @@ from pandas.api.types import is_object_dtype
 
 from drake_landing.campaign.cover import Cover, candidates, greedy_cover
 from drake_landing.campaign.fatigue import cycles, damage
-from drake_landing.campaign.hulls import hull_rows
 from drake_landing.campaign.run import CampaignResult, failure_message
 from drake_landing.campaign.screening import history_of
-from drake_landing.campaign.selection import Largest, largest, stress_of
+from drake_landing.campaign.section_envelopes import (
+    CORNERS,
+    EXTREMES,
+    SectionEnvelope,
+    SectionLoads,
+)
+from drake_landing.campaign.selection import Largest, equivalent_of, largest
 from drake_landing.campaign.setup import Prepared
 from drake_landing.campaign.statistics import exceedance_tables
 from drake_landing.campaign.task import case_file
@@ -121,8 +126,9 @@ def _largest(result: CampaignResult) -> dict[str, Largest]:
 
 def _cases(result: CampaignResult) -> pd.DataFrame:
     rows = []
-    for number in result.design.index:
-        row: dict[str, object] = {"case": number, **result.design.loc[number].to_dict()}
+    confirmed = {*result.sample, *result.critical}
+    for number, varied in zip(result.design.index, result.design.to_dict("records")):
+        row: dict[str, object] = {"case": number, **varied}
         own = result.prepared[result.of_case[number]]
         row["airframe"] = own.aircraft.name
         row["status"] = result.status[number]
@@ -132,7 +138,7 @@ def _cases(result: CampaignResult) -> pd.DataFrame:
         else:
             row["remark"] = failure_message(result, number)
         row["remark"] = result.unconfirmed.get(int(number), row["remark"])
-        row["confirmed"] = number in result.sample or number in result.critical
+        row["confirmed"] = number in confirmed
         rows.append(row)
     return pd.DataFrame(rows)
 
@@ -209,53 +215,21 @@ def _monitors(result: CampaignResult) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def _stations(result: CampaignResult, kind: str) -> tuple[pd.DataFrame, pd.DataFrame]:
-    extremes: dict[tuple, list] = {}
-    points: dict[tuple, list] = {}
+    found: dict[tuple[str, tuple[float, ...]], SectionEnvelope] = {}
     for number in result.flown:
         with h5py.File(case_file(result.cases, number)) as file:
             for name, group in file[kind].items():
+                landing = SectionLoads.of(group)
                 name = str(group.attrs.get("name", name))
-                _gather(extremes, points, name, group, number)
-    rows = [[*key, *value] for key, value in extremes.items()]
-    heads = ["name", "station", "quantity"]
-    heads += ["min", "case_of_min", "time_of_min", "max", "case_of_max", "time_of_max"]
-    hulls = []
-    for (name, station, pair), found in points.items():
-        table = np.array(found, float)
-        for at in hull_rows(table[:, 2:]):
-            case, time, x, y = table[at]
-            hulls.append([name, station, pair, x, y, int(case), time])
-    names = ["name", "station", "pair", "x", "y", "case", "time"]
-    return pd.DataFrame(rows, columns=heads), pd.DataFrame(hulls, columns=names)
-
-
-def _gather(
-    extremes: dict[tuple, list],
-    points: dict[tuple, list],
-    name: str,
-    group: h5py.Group,
-    number: int,
-) -> None:
-    low, high = np.asarray(group["min"]), np.asarray(group["max"])
-    at_low, at_high = np.asarray(group["time_of_min"]), np.asarray(group["time_of_max"])
-    quantities = str(group["min"].attrs["columns"]).split()
-    pairs = str(group["hull"].attrs["pairs"]).split("; ")
-    station = np.asarray(group["station"]) if "station" in group else np.zeros(len(low))
-    for i, s in enumerate(station.tolist()):
-        for q, quantity in enumerate(quantities):
-            old = extremes.setdefault(
-                (name, s, quantity), [np.inf, -1, 0.0, -np.inf, -1, 0.0]
-            )
-            if low[i, q] < old[0]:
-                old[:3] = [low[i, q], number, at_low[i, q]]
-            if high[i, q] > old[3]:
-                old[3:] = [high[i, q], number, at_high[i, q]]
-    for (cut, pair), (time, x, y) in zip(
-        np.asarray(group["hull_of"]).tolist(), np.asarray(group["hull"]).tolist()
-    ):
-        points.setdefault((name, float(station[cut]), pairs[pair]), []).append(
-            (number, time, x, y)
-        )
+                key = name, tuple(landing.station.tolist())
+                if key not in found:
+                    found[key] = SectionEnvelope.of(landing)
+                found[key].add(landing, number)
+    tables = [own.tables(name) for (name, _), own in found.items()]
+    if not tables:
+        return pd.DataFrame(columns=EXTREMES), pd.DataFrame(columns=CORNERS)
+    extremes, corners = zip(*tables)
+    return pd.concat(extremes, ignore_index=True), pd.concat(corners, ignore_index=True)
 
 
 def critical_cases(
@@ -265,7 +239,7 @@ def critical_cases(
     found = {}
     for key, best in worst.items():
         mine = [n for n in result.flown if result.of_case[n] == key]
-        stresses = ((n, stress_of(result.cases, n)[0]["equivalent"]) for n in mine)
+        stresses = ((n, equivalent_of(result.cases, n)) for n in mine)
         found |= candidates(stresses, best.value, tolerance)
     return greedy_cover(found, share)
 

@@ -3,18 +3,22 @@
 from itertools import combinations
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 import scipy.stats
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from drake_landing.campaign import section_envelopes
 from drake_landing.campaign.cover import candidates, greedy_cover
 from drake_landing.campaign.design import design, quantiles
 from drake_landing.campaign.fatigue import cycles, damage
 from drake_landing.campaign.hulls import DIRECTIONS, hull_rows
 from drake_landing.campaign.schema import Campaign, Distribution, Fatigue
 from drake_landing.campaign.statistics import exceedance
+from drake_landing.campaign.task import PAIRS
+from drake_landing.parts.cuts import NAMED
 
 
 def test_hull_of_a_circle_keeps_its_size() -> None:
@@ -149,3 +153,44 @@ def test_wrong_axes_are_refused(
 ) -> None:
     with pytest.raises(ValueError, match=said):
         _campaign(tmp_path, **fields)
+
+
+def _landing(file: h5py.File, rng: np.random.Generator) -> h5py.Group:
+    """Section loads of a landing, two cuts, as a case file holds them."""
+    group = file.create_group(f"landing{len(file)}")
+    group["station"] = [1.0, 2.0]
+    for name in ("min", "max", "time_of_min", "time_of_max"):
+        group[name] = rng.standard_normal((2, len(NAMED)))
+    kinds = [(c, p) for c in range(2) for p in range(len(PAIRS))]
+    group["hull_of"] = np.repeat(np.array(kinds), 5, axis=0)
+    group["hull"] = rng.standard_normal((5 * len(kinds), 3))
+    group["min"].attrs["columns"] = " ".join(NAMED)
+    group["hull"].attrs["pairs"] = "; ".join("-".join(p) for p in PAIRS)
+    return group
+
+
+def test_section_envelopes_thin_out_without_losing_corners(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Support of the common hull in every direction, and the landings of extremes."""
+    monkeypatch.setattr(section_envelopes, "_MOST", 100)
+    rng = np.random.default_rng(5)
+    with h5py.File("none", "w", driver="core", backing_store=False) as file:
+        landings = [_landing(file, rng) for _ in range(40)]
+        loads = [section_envelopes.SectionLoads.of(group) for group in landings]
+        own = section_envelopes.SectionEnvelope.of(loads[0])
+        for number, landing in enumerate(loads):
+            own.add(landing, number)
+        assert sum(map(len, own.corners)) <= 100 + 60
+        low = np.array([g["min"][:] for g in landings])
+        every = np.array([g["hull"][:] for g in landings]).reshape(40, 6, 5, 3)
+    extremes, corners = own.tables("wing")
+    assert extremes["min"].to_numpy() == pytest.approx(low.min(axis=0).ravel())
+    assert (extremes["case_of_min"] == low.argmin(axis=0).ravel()).all()
+    angle = np.linspace(0.0, 2.0 * np.pi, 37)
+    directions = np.stack([np.cos(angle), np.sin(angle)])
+    assert len(corners.groupby(["station", "pair"])) == 6
+    for k, (_, found) in enumerate(corners.groupby(["station", "pair"], sort=False)):
+        given = every[:, k, :, 1:].reshape(-1, 2) @ directions
+        kept = found[["x", "y"]].to_numpy() @ directions
+        assert kept.max(axis=0) == pytest.approx(given.max(axis=0), rel=5e-3)
