@@ -45,8 +45,8 @@ def solve_buckling(
     Raises:
         InputError: nothing that buckles or no load, a structure that moves freely.
     """
-    buckled = [case for case in subcases if case.method]
-    statics = [case for case in subcases if not case.method]
+    buckled = [case for case in subcases if _buckles(case)]
+    statics = [case for case in subcases if not _buckles(case)]
     if statics:
         solve_statics(structure, statics, results, options)
     loads = _loads_of(structure, buckled, options)
@@ -57,6 +57,11 @@ def solve_buckling(
         _solve(model, loads, results, options)
 
 
+def _buckles(case: Subcase) -> bool:
+    """METHOD, unless ANALYSIS says statics (METHOD may stand above all subcases)."""
+    return bool(case.method) and not case.analysis.upper().startswith("STATIC")
+
+
 def _preloads(deck: Deck, case: Subcase) -> list[Subcase]:
     """Static subcases that a buckling subcase builds upon: what buckles comes first.
 
@@ -64,12 +69,12 @@ def _preloads(deck: Deck, case: Subcase) -> list[Subcase]:
         InputError: there is none, or it is not static.
     """
     cases = {other.id: other for other in deck.case_control}
-    statics = [c for c in deck.case_control if not c.method]
+    statics = [c for c in deck.case_control if not _buckles(c)]
     chosen = case.statsub or (statics[0].id if statics else case.id)
     found = []
     for number in (chosen, case.preload):
         other = cases.get(number)
-        if number and (other is None or (other.method and other is not case)):
+        if number and (other is None or (_buckles(other) and other is not case)):
             raise InputError(
                 f"{deck.path}: subcase {case.id}: STATSUB = {number}, expected one of "
                 f"the static subcases {[c.id for c in statics]}"

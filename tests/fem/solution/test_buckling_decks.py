@@ -56,6 +56,17 @@ def solve(tmp_path):
     return go
 
 
+def test_analysis_tells_statics_from_buckling_where_method_stands_above(solve):
+    case = (
+        "SPC = 1\nMETHOD = 1\nSUBCASE 1\nANALYSIS = STATICS\nLOAD = 7\n"
+        "SUBCASE 2\nANALYSIS = STATICS\nLOAD = 8\n"
+        "SUBCASE 3\nANALYSIS = BUCK\nSTATSUB = 1\n"
+    )
+    found, *_ = solve(case, "EIGRL,1,,,1")
+    assert found["buckling/3/factor"] == pytest.approx([EULER], rel=1e-4)
+    assert "static/2/displacement" in found
+
+
 def test_a_fixed_free_column_has_eulers_loads_in_both_planes(solve):
     found, said, *_ = solve(CASE, "EIGRL,1,,,3")
     weak = EULER * np.array([1.0, 1.5, 9.0])
