@@ -47,6 +47,13 @@ for practice in ("modal damping 2% of critical", "transient at 5 ms"):
     assert gaps.loc[practice, 210] > 0.7 * gaps.loc[practice, 73]
 assert gaps.loc["as in this study", 210] < 0.3 * gaps.loc["as in this study", 73]
 """,
+    "06_gear_design": """
+assert balance < 1e-5
+assert (slopes["slope"] / slopes["by differences"] - 1).abs().max() < 1e-4
+assert samples["sink rate"].between(0.25, 2.45).all()
+assert loads.max(axis=1).nunique() == len(loads)
+assert np.isfinite(valves.to_numpy()).all()
+""",
     "07_campaign": """
 assert campaign.failed == [] and len(cases) == len(campaign.design)
 assert peak[sink > sink.median()].min() > peak[sink < sink.median()].max()
@@ -107,6 +114,20 @@ assert gaps.loc["as in this study", 210] < 0.02
 assert ((ratio > 0.5) & (ratio < 2)).mean() >= 0.9
 assert chosen.max() > 60
 assert feedback.loc["count 73"].max() > 0.05
+""",
+    "06_gear_design": """
+change = slopes["% of the peak for 1 %"]
+assert 0.3 < change["compression_damping"] < 0.36
+assert 0.1 < change["precharge"] < 0.125
+assert (np.diff(first) > 0).all()
+assert 1.0 < share[first > later][0] < 1.15
+assert samples["sink rate"].corr(loads.max(axis=1)) > 0.8
+ratio = valves["peak / kN"].unstack()
+ratio = ratio["controlled"] / ratio["plain"]
+assert 0.75 < ratio[1.0] < 0.85
+assert 0.95 < ratio[3.05] < 1.1
+stroke = valves["stroke / mm"].unstack()
+assert stroke["controlled"][3.66] < stroke["plain"][3.66]
 """,
     "07_campaign": """
 assert len(cases) == 40
