@@ -5,6 +5,7 @@ irregular shape (_CLASSES below) are given to pyNastran's card classes one by on
 that one faulty card hides no other. All problems of a deck are reported at once.
 """
 
+import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -55,7 +56,10 @@ def _external(
     while fields[-1] is None:
         fields.pop()
     try:
-        return extract(_CLASSES[card.name].add_card(BDFCard(fields, has_none=False)))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # it warns of what it raises, too
+            own = _CLASSES[card.name].add_card(BDFCard(fields, has_none=False))
+        return extract(own)
     except Malformed:
         raise
     # pyNastran raises whatever its card classes meet in a faulty card.
