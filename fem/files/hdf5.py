@@ -4,6 +4,8 @@ The file is written under a temporary name and takes its own when it is complete
 Histories of transients are written while they are computed.
 """
 
+import errno
+import shutil
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -87,6 +89,17 @@ class ResultFile:
 
         self.file.visititems(count)
         return sum(sizes)
+
+    def require_room(self) -> None:
+        """See that the disk has room for what the datasets will hold.
+
+        Raises:
+            OSError: it has not; with both figures.
+        """
+        size, free = self.size_bytes(), shutil.disk_usage(self.path.parent).free
+        if size > free:
+            words = f"results of {size / 1e6:,.0f} MB, {free / 1e6:,.0f} MB are free"
+            raise OSError(errno.ENOSPC, words, str(self.path))
 
     def write(self, name: str, values: npt.ArrayLike) -> None:
         """A dataset of numbers; groups on the way are made.

@@ -111,6 +111,11 @@ def _direct(
     reduced = model.guarded(reduce, dynamic=True, error=SingularMatrixError)
     observers = _observers(model, cases, reduced, inputs, results, options)
 
+    def inform(text: str) -> None:
+        size = results.size_bytes() / 1e6
+        options.console.say(f"{text}, result file {size:.0f} MB")
+        results.require_room()
+
     def run() -> Float64:
         return direct_transient(
             reduced.stiffness,
@@ -124,9 +129,7 @@ def _direct(
             solver=options.solver,
             threads=options.threads,
             progress=options.console.progress("direct transient"),
-            inform=lambda text: options.console.say(
-                f"{text}, result file {results.size_bytes() / 1e6:.0f} MB"
-            ),
+            inform=inform,
         ).time
 
     time = model.guarded(run, dynamic=True, error=SingularMatrixError)

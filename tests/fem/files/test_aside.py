@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from fem.files.aside import written_aside
+from fem.files.hdf5 import ResultFile
 from fem.files.hdf5_aside import written_hdf5
 
 
@@ -55,6 +56,7 @@ MANY = """
 import resource, sys
 from pathlib import Path
 import h5py, numpy as np
+from fem.files.hdf5 import ResultFile
 from fem.files.hdf5_aside import written_hdf5
 
 def write(path):
@@ -130,3 +132,17 @@ def test_a_folder_that_may_not_be_written_is_named(tmp_path: Path) -> None:
         written_aside(tmp_path / "taken" / "a.txt") as part,
     ):
         part.write_text("x")
+
+
+def test_results_that_no_disk_holds_are_refused_before_the_work(tmp_path: Path) -> None:
+    path = tmp_path / "a.h5"
+
+    def begin() -> None:
+        with ResultFile(path) as results:
+            results.file.create_dataset("a", (10**12,), dtype="f8")
+            results.require_room()
+
+    with pytest.raises(OSError, match=r"results of 8,000,000 MB, .* MB are free") as e:
+        begin()
+    assert e.value.errno == errno.ENOSPC
+    assert list(tmp_path.iterdir()) == []
