@@ -63,7 +63,7 @@ RECORDS = (
         more="sid:i fs:*",
         load=True,
     ),
-    Card(name="FREQ1", group=_GROUP, fields="sid:i f1:f df:f ndf:i=1", load=True),
+    Card(name="FREQ1", group=_GROUP, fields="sid:i f1:f=0. df:f ndf:i=1", load=True),
     Card(name="FREQ2", group=_GROUP, fields="sid:i f1:f f2:f nf:i=1", load=True),
     Card(
         name="DELAY", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 t:f=0.)", load=True
