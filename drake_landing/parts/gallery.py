@@ -98,7 +98,7 @@ def buckling_pictures(
     for name, close in (("all", False), ("close", True)):
         path = out / "pictures" / f"buckling_{name}.png"
         draw_field(path, field, close=close, up=R_AB[2], aft=R_AB[0])
-        where = "round the element with most of the work" if close else "the airframe"
+        where = "round the element with most of the work" if close else "marked"
         pictures.append(
             (
                 path,

@@ -29,6 +29,8 @@ Int64 = npt.NDArray[np.int64]
 
 SIZE = (1500, 900)  # pixels
 _DEFORMATION = 0.05  # of the airframe's size: largest displacement in a picture
+_MODE = 0.006  # the same in that of a buckling mode, whose place is small
+_NEAR = 0.02  # likewise its close-up
 _CLOSE = 0.09  # of the airframe's size: half height of a close-up
 _TOP = 0.995  # share of elements below the end of the colour scale
 _TRY = (
@@ -48,6 +50,9 @@ class Field:
         worst: (k, 3) corners of the worst element, deformed.
         title: of the colours.
         unit: Pa, or what one is in the picture.
+        top: end of the colour scale; None: by the values.
+        near: half height of a close-up, of the airframe's size.
+        marked: where `worst` is, is shown in the whole as well.
     """
 
     p: Float64
@@ -59,6 +64,9 @@ class Field:
     worst: Float64
     title: str = "equivalent stress, MPa"
     unit: float = 1e6
+    top: float | None = None
+    near: float = _CLOSE
+    marked: bool = False
 
 
 def can_draw() -> bool:
@@ -108,9 +116,9 @@ def mode_field(
         work: element id -> share of the largest.
         element: with the most of it.
     """
-    field = _field(structure, shape, work, element, None)
+    field = _field(structure, shape, work, element, None, _MODE)
     title = "work of the internal forces, share of the largest"
-    return replace(field, title=title, unit=1.0)
+    return replace(field, title=title, unit=1.0, top=1.0, near=_NEAR, marked=True)
 
 
 def _field(
@@ -119,15 +127,19 @@ def _field(
     values: pd.Series,
     element: int,
     chosen: frozenset[int] | None,
+    share: float = _DEFORMATION,
 ) -> Field:
-    """Elements moved by (f,) displacements, with values by element id."""
+    """Elements moved by (f,) displacements, with values by element id.
+
+    The largest displacement is a share of the airframe's size.
+    """
     points = structure.points
     moved = structure.operator(points.grid_id, (1, 2, 3), frame="basic")
     u = (moved @ displacement).reshape(-1, 3)
     u = u - _rigid_part(structure, displacement, points.xyz)
     size = float(np.ptp(points.xyz, axis=0).max())
     largest = float(np.linalg.norm(u, axis=1).max())
-    factor = _round(_DEFORMATION * size / largest) if largest > 0.0 else 1.0
+    factor = _round(share * size / largest) if largest > 0.0 else 1.0
     p = points.xyz + factor * u
     faces, face_id = _cells(structure, "surface", chosen, values.index)
     lines, line_id = _cells(structure, "line", chosen, values.index)
@@ -168,6 +180,7 @@ def draw_field(
     sticks = close or not len(field.faces)
     every = np.concatenate([field.face_stress, field.line_stress])
     top = float(np.quantile(every, _TOP)) if not close else float(every.max())
+    top = top if field.top is None else field.top
     scale = (0.0, max(top, 1e-6 * field.unit))
     bar = {
         "title": field.title,
@@ -202,6 +215,11 @@ def draw_field(
         )
     if close:
         plotter.add_mesh(_outline(field.worst), color="magenta", line_width=5)
+    elif field.marked:
+        place = field.worst.mean(axis=0)[None]
+        plotter.add_points(
+            place, color="magenta", point_size=22, render_points_as_spheres=True
+        )
     _look(plotter, field, close=close, up=up, aft=aft)
     try:
         with written_aside(path) as part:
@@ -226,7 +244,7 @@ def _look(
     """From ahead, aside and above; a close-up from outside onto its element."""
     size = float(np.ptp(field.p, axis=0).max())
     worst = field.worst.mean(axis=0)
-    toward = _outside(field, up=up, aft=aft, near=_CLOSE * size) if close else None
+    toward = _outside(field, up=up, aft=aft, near=field.near * size) if close else None
     if toward is None:
         side = 1.0 if worst @ np.cross(up, aft) >= 0.0 else -1.0
         toward = -0.8 * aft + side * np.cross(up, aft) + 0.55 * up
@@ -240,7 +258,7 @@ def _look(
     focus += toward * (field.p @ toward).mean()
     half = 0.56 * max(wide[1], wide[0] * SIZE[1] / SIZE[0])
     if close:
-        focus, half = worst, _CLOSE * size
+        focus, half = worst, field.near * size
     plotter.enable_parallel_projection()
     plotter.camera.up = tuple(up)
     plotter.camera.focal_point = tuple(focus)
