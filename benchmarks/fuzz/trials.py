@@ -74,20 +74,22 @@ def _of_child(kind: str, first: int, count: int, folder: Path) -> Iterator[Attem
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         cwd=Path(__file__).parents[2],
+        bufsize=0,  # what is buffered is not seen by `select`
     ) as child:
         assert child.stdout is not None
-        seed, wait = first, _START
+        seed, wait, why = first, _START, ""
         try:
             while True:
                 ready, _, _ = select.select([child.stdout], [], [], wait)
                 text = child.stdout.readline() if ready else b""
-                if not text:
-                    why = f"took over {wait:g} s" if not ready else "process died"
-                    child.kill()
-                    status = child.wait()
-                    if ready and status == 0:
+                if not ready:
+                    why = f"took over {wait:g} s"
+                elif not text:
+                    status = child.wait(SECONDS)
+                    if status == 0:
                         return
-                    why += f" (status {status})" if ready else ""
+                    why = f"process died (status {status})"
+                if not text:
                     yield Attempt(kind=kind, seed=seed, outcome=Outcome.bad, text=why)
                     return
                 found = json.loads(text)
