@@ -55,7 +55,9 @@ def audited(program: str, *words: object, cwd: Path) -> tuple[int, list, str]:
             "PYTHONPATH": str(HERE.parents[1]),
             "DRAKE_LANDING_CACHE": "off",
             "TMPDIR": str(cwd / "scratch"),
-            "NUMBA_DISABLE_JIT": "1",  # its machine code goes to the user's cache
+            # Machine code goes to a folder of the user's.
+            "NUMBA_CACHE_DIR": str(cwd / "scratch"),
+            "NUMBA_DISABLE_JIT": "1",
         },
     )
     told = json.loads(done.stdout.splitlines()[-1])
