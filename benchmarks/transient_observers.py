@@ -116,6 +116,7 @@ def transient(
         load=sampled_load(pattern, time, factors),
         observers=observers,
         threads=1,
+        mass_product=structure.mass_product,
         progress=tick,
     )
     processor = process_time() - start[0][0]

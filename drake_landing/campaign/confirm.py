@@ -125,4 +125,5 @@ def _integrate(
         observers=[watch],
         scheme=SCHEMES[scheme](),
         threads=1,
+        mass_product=full.mass_product,
     )

@@ -23,7 +23,6 @@ from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.campaign.basis import ScreeningBasis, screening_basis
 from drake_landing.case.schema import Case
 from drake_landing.parts.cuts import BeamCuts
-from drake_landing.parts.element_maps import Extension
 from drake_landing.parts.monitors import Station, without_maps
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.stress import StressPart
@@ -32,6 +31,7 @@ from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter
 from fem.algebra.damping import Damping
+from fem.algebra.extension import CondensedProduct, Extension
 from fem.arrays import Float64, Int64
 from fem.files.aside import written_aside
 from systems.airframe.modal_body import ModalBody
@@ -71,6 +71,7 @@ class TransientSetup:
 
     Attributes:
         stiffness, mass, damping: of the free set.
+        mass_product: products with the mass by its factors.
         pattern: (f, 6 k) loads on the nodes.
         maps: of the rows, part by part, on extended vectors.
         extension: of vectors of the free set.
@@ -78,6 +79,7 @@ class TransientSetup:
 
     stiffness: sp.csr_matrix = field(repr=False)
     mass: sp.csr_matrix = field(repr=False)
+    mass_product: CondensedProduct = field(repr=False)
     damping: Damping = field(repr=False)
     pattern: sp.csr_matrix = field(repr=False)
     maps: tuple[Map, ...] = field(repr=False)
@@ -179,6 +181,7 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
     transient = TransientSetup(
         stiffness=structure.stiffness,
         mass=structure.mass,
+        mass_product=structure.mass_product,
         damping=structure.damping,
         pattern=sp.csr_matrix(structure.operator(nodes, frame="basic").T),
         maps=maps.maps(),

@@ -2,8 +2,8 @@
 
 A row that hangs on grids under a constraint (a rib of an RBE3 on 700 freedoms) would
 have hundreds of entries on the free set. Here it has those of its own grids: vectors of
-the free set are extended by the dependent freedoms (`Extension`), which are computed
-once for all elements.
+the free set are extended by the dependent freedoms (`fem.algebra.extension`), which are
+computed once for all elements.
 """
 
 from dataclasses import dataclass, field
@@ -14,53 +14,6 @@ import scipy.sparse as sp
 from drake_landing.parts.stress_kernels import AT_ONCE
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Float64, Int64
-
-
-@dataclass(frozen=True, kw_only=True)
-class Extension:
-    """The g-set as vectors of the free set with the dependent freedoms below.
-
-    Attributes:
-        place: (g,) row of each freedom in an extended vector; -1: it is fixed.
-        dependent: (d, f) dependent freedoms from the free set.
-    """
-
-    place: Int64 = field(repr=False)
-    dependent: sp.csr_matrix = field(repr=False)
-
-    @classmethod
-    def of(cls, expand: sp.csr_matrix) -> "Extension":
-        """Of u_g = T u_f (g, f)."""
-        T = sp.csr_matrix(expand, copy=True)
-        T.eliminate_zeros()
-        _, free = shape_of(T)
-        count = np.diff(T.indptr)
-        place = np.full(len(count), -1, np.int64)
-        single = np.flatnonzero(count == 1)
-        at = T.indptr[single]
-        copied = T.data[at] == 1.0
-        place[single[copied]] = T.indices[at][copied]
-        rest = np.flatnonzero((place < 0) & (count > 0))
-        place[rest] = free + np.arange(len(rest))
-        return cls(place=place, dependent=sp.csr_matrix(T[rest]))
-
-    @property
-    def size(self) -> int:
-        """Rows of an extended vector."""
-        return sum(shape_of(self.dependent))
-
-    def extended(self, displacement: Float64) -> Float64:
-        """(f + d, ...) from vectors (f, ...)."""
-        return np.concatenate([displacement, self.dependent @ displacement])
-
-    def rows(self, operator: sp.csr_matrix) -> sp.csr_matrix:
-        """(r, f + d) from rows on the g-set."""
-        given = sp.coo_matrix(operator)
-        place = self.place[given.col]
-        keep = (place >= 0) & (given.data != 0.0)
-        shape = (shape_of(operator)[0], self.size)
-        entries = given.data[keep], (given.row[keep], place[keep])
-        return sp.csr_matrix(entries, shape=shape)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from drake_landing.parts.element_maps import Extension
 from drake_landing.parts.stress_kernels import lanes_of
 from drake_landing.parts.stress_rows import Extremes, Map, StressRows, starts
+from fem.algebra.extension import Extension
 from fem.arrays import Float64
 from fem.response.observation import Chunk
 

@@ -15,9 +15,10 @@ import numpy as np
 import numpy.typing as npt
 import scipy.sparse as sp
 
-from drake_landing.parts.element_maps import DenseRows, Extension
+from drake_landing.parts.element_maps import DenseRows
 from drake_landing.parts.stress import Stresses, StressPart
 from drake_landing.parts.stress_kernels import of_displacements, of_rows
+from fem.algebra.extension import Extension
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Bool, Float64, Int64
 

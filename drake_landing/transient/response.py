@@ -91,6 +91,7 @@ def transient_response(
             load=transient_load(structure, loads, *further),
             observers=[watched, *observers],
             scheme=SCHEMES[scheme](),
+            mass_product=structure.mass_product,
             progress=lambda step, wanted: tell.share(step / wanted, f"step {step}"),
         )
         if done is not None:

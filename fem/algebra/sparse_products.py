@@ -68,18 +68,27 @@ class SplitMatrix:
     def of_sum(self, *terms: Term, out: Float64) -> None:
         """Product with a sum of factors times vectors (c, n), into `out`."""
         given = [term for term in terms if term[0] != 0.0]
-        if self.diagonal is None or not given:
+        if self.diagonal is None:
             out[:] = 0.0
         else:
-            scaled = [factor * self.diagonal for factor, _ in given]
-            for part, buffer in _pieces(out):
-                whole = out[:, part]
-                np.multiply(given[0][1][:, part], scaled[0][part], out=whole)
-                for (_, vectors), scale in zip(given[1:], scaled[1:]):
-                    whole += np.multiply(vectors[:, part], scale[part], out=buffer)
+            scaled_sum(self.diagonal, *given, out=out)
         if self.rest.nnz and given:
             chosen = sum(factor * v[:, self.columns] for factor, v in given)
             out[:, self.rows] += (self.rest @ chosen.T).T
+
+
+def scaled_sum(diagonal: Float64, *terms: Term, out: Float64) -> None:
+    """A diagonal (n,) times a sum of factors times vectors (c, n), into `out`."""
+    given = [(factor * diagonal, v) for factor, v in terms if factor != 0.0]
+    for part, buffer in _pieces(out):
+        whole = out[:, part]
+        if not given:
+            whole[:] = 0.0
+        for i, (scale, vectors) in enumerate(given):
+            target = buffer if i else whole
+            np.multiply(vectors[:, part], scale[part], out=target)
+            if i:
+                whole += buffer
 
 
 def weighted_sum(*terms: Term, out: Float64) -> None:
@@ -87,9 +96,12 @@ def weighted_sum(*terms: Term, out: Float64) -> None:
     given = [term for term in terms if term[0] != 0.0]
     for part, buffer in _pieces(out):
         whole = out[:, part]
-        whole[:] = 0.0
-        for factor, vectors in given:
-            whole += np.multiply(vectors[:, part], factor, out=buffer)
+        if not given:
+            whole[:] = 0.0
+        for i, (factor, vectors) in enumerate(given):
+            np.multiply(vectors[:, part], factor, out=buffer if i else whole)
+            if i:
+                whole += buffer
 
 
 def _pieces(vectors: Float64) -> Iterator[tuple[slice, Float64]]:

@@ -13,6 +13,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
+from fem.algebra.extension import CondensedProduct
 from fem.arrays import Float64, Int64
 from fem.constraints.support import Support, support
 from fem.elements.quality import quality_notices
@@ -101,6 +102,12 @@ class FreeSet:
     def mass(self) -> sp.csr_matrix:
         """(f, f) M."""
         return self.support.elimination.reduce(self.model.matrices.mass)
+
+    @cached_property
+    def mass_product(self) -> CondensedProduct:
+        """Products with M, by its factors."""
+        T = self.support.elimination.T
+        return CondensedProduct.of(self.model.matrices.mass, T)
 
     @cached_property
     def damping(self) -> Damping:

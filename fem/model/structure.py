@@ -18,6 +18,7 @@ import scipy.sparse as sp
 from scipy.linalg import qr
 
 from fem.algebra.damping import Damping
+from fem.algebra.extension import CondensedProduct
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.arrays import Float64, Int64
 from fem.constraints.autospc import Singularities, grouped
@@ -210,6 +211,11 @@ class Structure:
     def mass(self) -> sp.csr_matrix:
         """(f, f) M."""
         return self._free.mass
+
+    @property
+    def mass_product(self) -> CondensedProduct:
+        """Products with M that do not suffer from what constraints fill."""
+        return self._free.mass_product
 
     @property
     def damping(self) -> Damping:

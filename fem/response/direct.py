@@ -14,6 +14,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
+from fem.algebra.extension import CondensedProduct
 from fem.algebra.linear_solver import Factorization, SolverName
 from fem.arrays import Float64
 from fem.response.beside import Beside
@@ -70,6 +71,7 @@ def direct_transient(
     scheme: NastranScheme | GeneralizedAlpha | None = None,
     solver: SolverName | None = None,
     threads: int | None = None,
+    mass_product: CondensedProduct | None = None,
     progress: Progress | None = None,
     inform: Callable[[str], None] | None = None,
 ) -> TransientRun:
@@ -85,6 +87,7 @@ def direct_transient(
         observers: receive the response, e.g. `Observation`.
         scheme: Nastran's by default.
         solver, threads: as in `fem.algebra.linear_solver.factorize`.
+        mass_product: products with `mass` that cost less, see `Structure`.
         progress: called after each step with (done, all).
         inform: receives a line on size and memory before the steps begin.
 
@@ -97,7 +100,13 @@ def direct_transient(
     """
     scheme = scheme or NastranScheme()
     system = TransientSystem.of(
-        stiffness, mass, damping, load, solver=solver, threads=threads
+        stiffness,
+        mass,
+        damping,
+        load,
+        solver=solver,
+        threads=threads,
+        mass_product=mass_product,
     )
     groups = step_groups(steps)
     time = output_times(groups)

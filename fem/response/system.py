@@ -8,6 +8,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
+from fem.algebra.extension import CondensedProduct
 from fem.algebra.linear_solver import Factorization, SolverName, factorize
 from fem.algebra.sparse_products import SplitMatrix, shape_of
 from fem.arrays import Float64
@@ -79,7 +80,7 @@ class TransientSystem:
     Attributes:
         stiffness, mass: (n, n) K and M.
         damping: B.
-        mass_product: M as diagonal and rest.
+        mass_product: M by its diagonal and the rest, or by its factors.
         other_product: B' as diagonal and rest.
         pattern_rows: (r,) rows that the load patterns touch.
         pattern: (r, k) those rows of the patterns.
@@ -88,7 +89,7 @@ class TransientSystem:
     stiffness: sp.csr_matrix
     mass: sp.csr_matrix
     damping: Damping
-    mass_product: SplitMatrix
+    mass_product: SplitMatrix | CondensedProduct
     other_product: SplitMatrix | None
     pattern_rows: npt.NDArray[np.intp]
     pattern: sp.csr_matrix
@@ -105,6 +106,7 @@ class TransientSystem:
         *,
         solver: SolverName | None,
         threads: int | None,
+        mass_product: CondensedProduct | None = None,
     ) -> "TransientSystem":
         """Prepare the products."""
         k, m = sp.csr_matrix(stiffness, dtype=float), sp.csr_matrix(mass, dtype=float)
@@ -120,7 +122,7 @@ class TransientSystem:
             stiffness=k,
             mass=m,
             damping=b,
-            mass_product=SplitMatrix.of(m),
+            mass_product=mass_product or SplitMatrix.of(m),
             other_product=None if b.other is None else SplitMatrix.of(b.other),
             pattern_rows=rows,
             pattern=pattern[rows],

@@ -89,17 +89,12 @@ def _respond(
     first = tasks[0].airframe
     structure, step = first.structure, tasks[0].loads.step
     count = len(tasks[0].loads.time) - 1
-    patterns = [
-        t.airframe.structure.operator(t.loads.node_id, frame="basic").T for t in tasks
-    ]
-    width = [int(p.get_shape()[1]) for p in patterns]
-    start = np.concatenate([[0], np.cumsum(width)])
     time, _ = tasks[0].loads.held()
-    factors = np.zeros((len(tasks), start[-1], len(time)))
-    for i, task in enumerate(tasks):
-        load = task.loads.held()[1].reshape(len(time), -1)
-        factors[i, start[i] : start[i + 1]] = load.T
-    watched = [Observation("acceleration", _watched(t.airframe)) for t in tasks]
+    pattern, factors = _loads(tasks, len(time))
+    # One for each airframe, not for each task: it sees all load cases.
+    watched = {
+        id(t.airframe): Observation("acceleration", _watched(t.airframe)) for t in tasks
+    }
 
     def integrate() -> None:
         direct_transient(
@@ -107,8 +102,9 @@ def _respond(
             structure.mass,
             structure.damping,
             steps=[(count, step)],
-            load=sampled_load(sp.hstack(patterns), time, factors),
-            observers=watched,
+            load=sampled_load(pattern, time, factors),
+            observers=list(watched.values()),
+            mass_product=structure.mass_product,
             scheme=SCHEMES[first.case.transient.scheme](),
             progress=lambda done, wanted: told(done / wanted, f"step {done}"),
             inform=announce,
@@ -116,5 +112,26 @@ def _respond(
 
     structure.guarded(integrate, dynamic=True, error=SingularMatrixError)
     return [
-        watch.values[:, i].reshape(count + 1, -1, 3) for i, watch in enumerate(watched)
+        watched[id(task.airframe)].values[:, i].reshape(count + 1, -1, 3)
+        for i, task in enumerate(tasks)
     ]
+
+
+def _loads(
+    tasks: Sequence[TransientTask], instants: int
+) -> tuple[sp.csr_matrix, Float64]:
+    """Patterns (f, k), those of the same nodes once, and factors (tasks, k, t)."""
+    patterns, place, width = {}, [], 0
+    for task in tasks:
+        nodes = task.loads.node_id
+        key = id(task.airframe), tuple(nodes.tolist())
+        if key not in patterns:
+            rows = task.airframe.structure.operator(nodes, frame="basic")
+            patterns[key] = width, rows.T
+            width += 6 * len(nodes)
+        place.append(patterns[key][0])
+    factors = np.zeros((len(tasks), width, instants))
+    for i, (task, at) in enumerate(zip(tasks, place)):
+        load = task.loads.held()[1].reshape(instants, -1)
+        factors[i, at : at + load.shape[1]] = load.T
+    return sp.csr_matrix(sp.hstack([p for _, p in patterns.values()])), factors

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from drake_landing.parts.element_maps import Extension
 from drake_landing.parts.stress import stresses
 from drake_landing.parts.stress_extremes import Steady, StressExtremes
 from drake_landing.parts.stress_rows import stress_maps
 from drake_landing.parts.stress_watch import StressWatch
+from fem.algebra.extension import Extension
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 from fem.response.observation import StateChunk
@@ -31,6 +31,8 @@ GRID,9,,1.,0.,-1.
 GRID,10,,1.,1.,-1.
 GRID,11,,0.,1.,-1.
 GRID,12,,.5,.5,2.
+CONM2,20,12,,3.,.1,.2,.3
+CONM2,21,7,,2.,.1
 MAT1,1,7.+10,,.3,2700.
 MAT8,2,1.+11,1.+10,.3,5.+9,,,1600.
 PSHELL,1,1,.01,1,,1
@@ -131,6 +133,16 @@ def test_elements_at_a_constraint_hang_on_their_own_grids(structure: Structure) 
     held = found.place < 0
     assert whole[~held] == pytest.approx(extended[found.place[~held]], rel=1e-14)
     assert not whole[held].any()
+
+
+def test_mass_by_its_factors_is_the_mass(structure: Structure) -> None:
+    """Also where grids depend on others, and where some do not move."""
+    u, v = np.random.default_rng(2).standard_normal((2, 3, structure.size))
+    out = np.empty_like(u)
+    structure.mass_product.of_sum((2.0, u), (-0.5, v), out=out)
+    expected = (structure.mass @ (2.0 * u - 0.5 * v).T).T
+    assert np.abs(out - expected).max() < 1e-13 * np.abs(expected).max()
+    assert structure.mass_product.dot(u) == pytest.approx((structure.mass @ u.T).T)
 
 
 def test_snapshots_are_the_worst_instants(structure: Structure) -> None:
