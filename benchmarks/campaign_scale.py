@@ -28,7 +28,7 @@ from drake_landing.campaign.tables import write_tables
 from drake_landing.campaign.task import PAIRS, case_file
 from drake_landing.parts.cuts import NAMED
 from drake_landing.progress import Silent
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic_hdf5 import written_hdf5
 
 _CUTS = 6
 

@@ -110,7 +110,7 @@ def new(
     from drake_landing.process.new_case import new_case
     from fem.deck.source import include_reach
     from fem.errors import InputError
-    from fem.files.aside import write_aside
+    from fem.files.atomic import write_aside
 
     _expect_deck(deck)
     if case.exists():
@@ -131,7 +131,7 @@ def conditions(
 ) -> None:
     """Ground-load conditions of CS-25 or CS-23 as balanced static cases."""
     from drake_landing.case.reading import load_case
-    from drake_landing.process.conditions import run_conditions, summary
+    from drake_landing.process.static_conditions import run_conditions, summary
     from drake_landing.progress import reporter
     from fem.deck.source import include_reach
     from fem.files.folders import claim

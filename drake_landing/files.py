@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 from fem.files.escaping import cell
 
 _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")

@@ -2,8 +2,8 @@
 
 from benchmarks.verification.row import LINES, Row, figure
 from benchmarks.verification.runner import run
-from fem.cross_sections.beam_library import SOURCES
 from fem.cross_sections.library import DIMENSIONS, section
+from fem.cross_sections.shear_factors import SOURCES
 
 # Dimensions, J, K1, K2 as printed for an entry PBAR or PBEAM.
 _PRINTED: dict[str, tuple[tuple[float, ...], float, float, float]] = {

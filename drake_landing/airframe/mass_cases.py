@@ -16,13 +16,13 @@ from drake_landing.case.mass_cases import MassCase, Span, holds_id
 from drake_landing.gears.bodies import mass_points
 from drake_landing.gears.data import LandingGear
 from fem.arrays import Float64
-from fem.deck.case_commands import canonical
+from fem.deck.case_command_names import canonical
 from fem.deck.lexer import RawCard, read_cards, without_cards
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import Line, read_source
 from fem.deck.values import real
 from fem.errors import InputError
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from fem.model.structure import Structure
 
 _MASS, _INERTIA = 4, range(9, 15)  # fields of CONM2

@@ -17,7 +17,7 @@ from drake_landing.campaign.task import case_file
 from drake_landing.parts.stress_extremes import Steady, StressExtremes
 from drake_landing.transient.response import SCHEMES
 from fem.arrays import Float64
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic_hdf5 import written_hdf5
 from fem.response.direct import direct_transient
 from fem.response.system import sampled_load
 

@@ -20,7 +20,7 @@ from drake_landing.campaign.schema import (
 )
 from fem.arrays import Float64
 from fem.errors import InputError, nearest
-from fem.given import given_text
+from fem.input_files import given_text
 
 
 def design(campaign: Campaign) -> pd.DataFrame:

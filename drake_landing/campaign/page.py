@@ -16,7 +16,7 @@ from jinja2 import Environment, StrictUndefined
 from drake_landing.campaign.run import CampaignResult
 from drake_landing.campaign.selection import MATTERS
 from drake_landing.campaign.tables import COVER_SHARE, COVER_TOLERANCE, Tables
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 _MOST_CURVE = 400  # points of an exceedance curve
 _COMPONENTS = {

@@ -33,7 +33,7 @@ from drake_landing.progress import Reporter
 from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct, Extension
 from fem.arrays import Float64, Int64
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from systems.airframe.modal_body import ModalBody
 
 

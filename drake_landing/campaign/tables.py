@@ -25,7 +25,6 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from pandas.api.types import is_object_dtype
 
-from drake_landing.campaign.cover import Cover, candidates, greedy_cover
 from drake_landing.campaign.fatigue import cycles, damage
 from drake_landing.campaign.run import CampaignResult, failure_message
 from drake_landing.campaign.screening import history_of
@@ -36,13 +35,14 @@ from drake_landing.campaign.section_envelopes import (
     SectionLoads,
 )
 from drake_landing.campaign.selection import Largest, equivalent_of, largest
+from drake_landing.campaign.set_cover import Cover, candidates, greedy_cover
 from drake_landing.campaign.setup import Prepared
 from drake_landing.campaign.statistics import exceedance_tables
 from drake_landing.campaign.task import case_file
 from drake_landing.parts.stress_rows import starts
 from drake_landing.parts.tables import with_margin
 from fem.arrays import Float64
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 Tables = Mapping[str, pd.DataFrame]
 
@@ -235,7 +235,7 @@ def _stations(result: CampaignResult, kind: str) -> tuple[pd.DataFrame, pd.DataF
 def critical_cases(
     result: CampaignResult, worst: Mapping[str, Largest], tolerance: float, share: float
 ) -> Cover:
-    """Greedy cover of all elements by landings; see `cover`."""
+    """Greedy cover of all elements by landings; see `set_cover`."""
     found = {}
     for key, best in worst.items():
         mine = [n for n in result.flown if result.of_case[n] == key]

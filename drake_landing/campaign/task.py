@@ -33,9 +33,9 @@ from drake_landing.landing.run import build_landing, fly
 from drake_landing.parts.cuts import NAMED
 from fem.arrays import Float64
 from fem.errors import InputError
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
+from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.escaping import group_name
-from fem.files.hdf5_aside import written_hdf5
 
 Status = Literal["done", "suspect", "failed"]
 

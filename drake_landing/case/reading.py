@@ -18,7 +18,7 @@ from drake_landing.case.document import document_text, read_document
 from drake_landing.case.places import Places
 from drake_landing.case.schema import Case
 from fem.errors import InputError, nearest
-from fem.given import given_text
+from fem.input_files import given_text
 
 _MOST_BYTES = 20_000_000
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"

@@ -12,7 +12,7 @@ from drake_landing.conditions.ground import BookCase
 from drake_landing.conditions.poses import Posed
 from drake_landing.conditions.statics import point
 from fem.arrays import Float64
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 
 # Views: what is drawn to the right and upward, components of G and their sign.
 _VIEWS = (("from port", 0, 2), ("from ahead", 1, 2), ("from above", 0, 1))

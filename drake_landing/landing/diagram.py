@@ -20,13 +20,13 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import Diagram, DiagramBuilder, LeafSystem
 from pydrake.systems.primitives import Adder, LogVectorOutput, VectorLogSink
 
-from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
-from drake_landing.gears.data import LandingGear
-from drake_landing.gears.holds import (
+from drake_landing.gears.attachment_points import (
     attachment_places,
     attachment_points,
     require_shared_loads,
 )
+from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
+from drake_landing.gears.data import LandingGear
 from drake_landing.gears.systems import AddGearSystems, GearSystems
 from drake_landing.landing.lift import AddLift, Lift
 from systems.airframe.distributed_load import DistributedLoad

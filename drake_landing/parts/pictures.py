@@ -16,9 +16,9 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.parts.stress import Stresses
-from drake_landing.parts.stress_watch import Snapshot
+from drake_landing.parts.stress_observer import Snapshot
 from fem.deck.grids import corners_of
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from fem.model.structure import Structure
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ import pandas as pd
 
 from drake_landing.parts.cuts import NAMED, envelope_table
 from drake_landing.parts.monitors import monitor_envelopes, monitor_histories
-from drake_landing.parts.watch import PartsFound
+from drake_landing.parts.observers import PartsFound
 
 WORST = ["component", "rank", "id", "card", "material", "equivalent", "time",
          "largest", "smallest", "x", "y", "z", "allowed", "margin",

@@ -37,8 +37,8 @@ from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import prepare_aircraft
-from drake_landing.process.conditions import condition_figures
 from drake_landing.process.full_response import parts_looked_at
+from drake_landing.process.static_conditions import condition_figures
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import (
     StepError,

@@ -35,8 +35,8 @@ from drake_landing.landing.run import build_landing, fast_mode_notices, fly
 from drake_landing.landing.settling import LIMIT, Settling, swing_of
 from drake_landing.parts import tables
 from drake_landing.parts.buckling import with_margin
+from drake_landing.parts.observers import PartsWatch
 from drake_landing.parts.stress import stress_point_notices
-from drake_landing.parts.watch import PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import FullResponse, full_response
 from drake_landing.process.landing_deck import check_landing_deck, write_landing_deck

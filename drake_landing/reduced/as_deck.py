@@ -16,7 +16,7 @@ from scipy.spatial.distance import cdist
 from drake_landing.reduced.model import ReducedModel
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 from fem.files.deck_writer import DeckText, Section
 from fem.files.matrices import NamedMatrix
 

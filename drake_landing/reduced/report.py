@@ -10,8 +10,8 @@ import pandas as pd
 from drake_landing.files import write_csv
 from drake_landing.reduced.checks import ReductionChecks
 from drake_landing.reduced.model import ReducedModel
-from fem.files.aside import write_aside
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic import write_aside
+from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.matrices import write_dmig, write_op4
 from fem.files.matrices.nastran_h5 import write_h5
 

@@ -33,7 +33,7 @@ from drake_landing.replay.scene import (
     add_wheel,
     airframe_picture,
 )
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 from systems.tools.rotations import exp
 
 if TYPE_CHECKING:

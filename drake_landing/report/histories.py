@@ -20,7 +20,7 @@ from drake_landing.landing.history import UNITS
 from drake_landing.parts.tables import root_histories
 from drake_landing.results.units import unit_of
 from fem.arrays import Float64
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult

@@ -12,7 +12,7 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 _LONG = 24  # letters of a word
 

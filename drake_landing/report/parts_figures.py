@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 
 from drake_landing.parts.cuts import NAMED, BeamCuts
-from drake_landing.parts.watch import PartsFound
+from drake_landing.parts.observers import PartsFound
 from drake_landing.report.plots import (
     INK,
     MULTIBODY,

@@ -10,7 +10,7 @@ import pandas as pd
 from drake_landing.case.axes import deck_axes
 from drake_landing.parts import tables
 from drake_landing.parts.buckling import COARSE, BuckledPanels, with_margin
-from drake_landing.parts.watch import PartsFound
+from drake_landing.parts.observers import PartsFound
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
 from drake_landing.results.comparison import shock_response_spectrum

@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 from fem.errors import InputError
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "chrome", "msedge")
 _SECONDS = 180.0

@@ -43,13 +43,13 @@ from drake_landing.results.units import (
     unit_of,
     with_units,
 )
+from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.escaping import group_name
-from fem.files.hdf5_aside import written_hdf5
 from fem.recovery.envelope import Envelope
 from systems.airframe.modal_body import ModalBody
 
 if TYPE_CHECKING:
-    from drake_landing.parts.watch import PartsFound
+    from drake_landing.parts.observers import PartsFound
     from drake_landing.results.provenance import Provenance
 
 # What a run writes.

@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.landing.settling import late
+from drake_landing.parts.observers import PartsFound
 from drake_landing.parts.tables import component_table, root_histories
-from drake_landing.parts.watch import PartsFound
 
 COLUMNS = ["kind", "quantity", "value", "unit", "time"]
 LATE = "last_swing"

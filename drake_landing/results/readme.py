@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drake_landing.case.axes import deck_axes
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult

@@ -13,7 +13,7 @@ from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads, smooth_curve
 from drake_landing.landing.history import POINT, LandingHistory
 from drake_landing.parts.buckling import BuckledPanels
-from drake_landing.parts.watch import PartsFound
+from drake_landing.parts.observers import PartsFound
 from drake_landing.results.provenance import Provenance
 from drake_landing.results.stages import Stages
 from drake_landing.results.truncation import Truncation

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from drake_landing.show.mesh import RIGID, Component, DrawnMesh
 from drake_landing.show.modes import ShownModes
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 
 if TYPE_CHECKING:
     import pyvista

@@ -17,7 +17,7 @@ from jinja2 import Environment, StrictUndefined
 from drake_landing.show.mesh import RIGID, Component, DrawnMesh
 from drake_landing.show.modes import ShownModes
 from drake_landing.show.pictures import colour, deformation_factor
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 Int64 = npt.NDArray[np.int64]
 _FULL = 32767

@@ -20,7 +20,7 @@ from fem.deck.lexer import RawCard, read_cards, without_cards
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import Line, read_source
 from fem.errors import InputError
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from fem.files.escaping import comment
 
 Float64 = npt.NDArray[np.float64]

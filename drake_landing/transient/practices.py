@@ -21,8 +21,8 @@ import pandas as pd
 
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import NAMED
+from drake_landing.parts.observers import PartsFound
 from drake_landing.parts.slices import Slices
-from drake_landing.parts.watch import PartsFound
 from systems.airframe.modal_body import ModalBody
 
 Float64 = npt.NDArray[np.float64]

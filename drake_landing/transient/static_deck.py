@@ -19,7 +19,7 @@ from fem.arrays import Float64
 from fem.deck.sections import split_sections
 from fem.deck.source import read_source
 from fem.deck.units import units_of
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from fem.files.deck_writer import card
 from fem.model.structure import Structure
 

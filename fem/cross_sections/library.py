@@ -15,7 +15,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.cross_sections.analysis import SectionConstants, analyse
-from fem.cross_sections.beam_library import ROUND, library_values
+from fem.cross_sections.shear_factors import ROUND, library_values
 from fem.errors import nearest
 
 Box = tuple[float, float, float, float]  # y from, y to, z from, z to

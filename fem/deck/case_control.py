@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fem.arrays import Int64
-from fem.deck import case_commands as commands
+from fem.deck import case_command_names as commands
 from fem.deck.case_sets import Selection, SetReader, number
 from fem.deck.source import Line
 from fem.deck.values import Malformed, real

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from fem.deck.case_control import Subcase
-from fem.deck.params import DEFAULTS, Value
+from fem.deck.param_names import DEFAULTS, Value
 from fem.errors import InputError, nearest
 
 

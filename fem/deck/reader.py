@@ -30,7 +30,7 @@ from fem.deck.executive import read_executive
 from fem.deck.fields import Fields
 from fem.deck.lexer import Bulk, RawCard, read_cards
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
-from fem.deck.parameters import read_parameters
+from fem.deck.param_cards import read_parameters
 from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source

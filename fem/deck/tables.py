@@ -7,9 +7,9 @@ import numpy as np
 import pandas as pd
 
 from fem.deck.fields import Fields, IdRange
+from fem.deck.fixed_fields import read_regular
 from fem.deck.lexer import RawCard
 from fem.deck.records import CARDS, TABLES, Card, table_of
-from fem.deck.regular import read_regular
 from fem.deck.values import Malformed
 
 Rows = list[dict[str, Any]]

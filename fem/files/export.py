@@ -6,7 +6,7 @@ from tempfile import TemporaryDirectory
 
 from fem.deck.deck import Deck
 from fem.deck.listing_tables import tables_of
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 from fem.files.listing import listing
 from fem.files.op2 import write_op2
 from fem.files.paraview import write_paraview

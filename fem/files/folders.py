@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from fem.errors import InputError
-from fem.files.aside import PART, written_aside
+from fem.files.atomic import PART, written_aside
 
 try:
     import fcntl

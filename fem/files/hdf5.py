@@ -20,8 +20,8 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
 from fem.deck.case_sets import Selection
-from fem.files.finite import require_finite
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic_hdf5 import written_hdf5
+from fem.files.finite_check import require_finite
 from fem.geometry.points import Points
 from fem.model.structure import Structure
 from fem.recovery.elements import ElementTable

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from fem.arrays import Int64
 from fem.elements.connectivity import element_grids
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from fem.files.op2_elements import (
     Elements,
     Layout,

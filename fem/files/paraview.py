@@ -20,7 +20,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.records import CARDS
 from fem.elements.connectivity import element_grids
 from fem.elements.stress_measures import plane_von_mises
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.reading import ElementResult, PointResult, Solution, solutions
 from fem.model.structure import Structure
 

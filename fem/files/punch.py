@@ -16,7 +16,7 @@ import numpy as np
 from fem.arrays import Float64, Int64
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 from fem.files.op2 import element_layouts
 from fem.files.op2_elements import Layout
 from fem.files.reading import PointResult, Solution, solutions

@@ -18,9 +18,9 @@ from fem.arrays import Float64, Int64
 from fem.constraints.support import Support, support
 from fem.elements.quality import quality_notices
 from fem.elements.registry import element_notices
+from fem.model.connected_pieces import describe_pieces, unconnected_pieces
 from fem.model.mass_sets import combination_story
 from fem.model.model import Model
-from fem.model.pieces import describe_pieces, unconnected_pieces
 from fem.model.points import axis_notices
 from fem.model.weight import rigid_modes
 

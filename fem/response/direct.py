@@ -17,10 +17,10 @@ from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct
 from fem.algebra.linear_solver import Factorization, SolverName
 from fem.arrays import Float64
-from fem.response.beside import Beside
 from fem.response.generalized_alpha import GeneralizedAlpha
 from fem.response.nastran_scheme import NastranScheme
 from fem.response.observation import Observer, total_memory
+from fem.response.observer_thread import Beside
 from fem.response.system import TransientLoad, TransientSystem, sampled_load
 from fem.response.time_grid import output_times, step_groups
 

@@ -75,7 +75,7 @@ def compiled_law(function: Callable[P, R]) -> Callable[P, R]:
     of its own room and of this one. Sums are not reordered: what is exactly zero in
     Python is so here.
     """
-    import systems.tools.overloads  # noqa: F401  registers them
+    import systems.tools.numba_overloads  # noqa: F401  registers them
 
     file = Path(function.__code__.co_filename)
     rooms = sorted({*file.parent.glob("*.py"), *Path(__file__).parent.glob("*.py")})

@@ -2,7 +2,7 @@
 
 The laws of this room are written once for both. Floats go straight to `math`, which is
 many times faster than the overloads of pydrake. Compiled laws (`compiled.compiled_law`)
-may call them, too (`overloads`).
+may call them, too (`numba_overloads`).
 """
 
 import math

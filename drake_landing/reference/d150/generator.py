@@ -20,7 +20,7 @@ from drake_landing.reference.d150.reference_axis import (
     reference_nodes,
 )
 from fem.errors import InputError, nearest
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 
 
 @dataclass(frozen=True, kw_only=True)

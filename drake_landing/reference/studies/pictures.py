@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from drake_landing.reference.studies import figures
 from drake_landing.reference.studies.plan import FULL_MODES
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 
 if TYPE_CHECKING:
     from drake_landing.reference.studies.runs import Study, StudyRun

@@ -26,7 +26,7 @@ from drake_landing.reference.studies.tables import (
 )
 from drake_landing.reference.studies.transients import TransientTask, respond_all
 from drake_landing.results.comparison import RunLabel, comparison_table
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 
 Float64 = npt.NDArray[np.float64]
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from fem.errors import InputError
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 from fem.files.matrices.dmig import read_punch, write_punch
 from fem.files.matrices.named import NamedMatrix
 from fem.files.matrices.nastran_h5 import read_h5

@@ -15,7 +15,7 @@ from drake_landing.airframe.gear_places import (
     shell_attachments,
 )
 from drake_landing.case.reading import load_case
-from drake_landing.gears.holds import attachment_places
+from drake_landing.gears.attachment_points import attachment_places
 from drake_landing.landing.initial_state import attitude
 from drake_landing.process.explain import explain
 from fem.deck.reader import read_deck

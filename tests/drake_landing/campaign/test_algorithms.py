@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from drake_landing.campaign import section_envelopes
-from drake_landing.campaign.cover import candidates, greedy_cover
 from drake_landing.campaign.design import design, quantiles
 from drake_landing.campaign.fatigue import cycles, damage
 from drake_landing.campaign.hulls import DIRECTIONS, hull_rows
 from drake_landing.campaign.schema import Campaign, Distribution, Fatigue
+from drake_landing.campaign.set_cover import candidates, greedy_cover
 from drake_landing.campaign.statistics import exceedance
 from drake_landing.campaign.task import PAIRS
 from drake_landing.parts.cuts import NAMED

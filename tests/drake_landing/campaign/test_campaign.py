@@ -30,7 +30,7 @@ from drake_landing.cli import app
 from drake_landing.report.pdf import browser
 from fem import read_deck, run_deck
 from fem.errors import InputError
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic_hdf5 import written_hdf5
 
 HERE = Path(__file__).parents[1]
 CAMPAIGN = """\

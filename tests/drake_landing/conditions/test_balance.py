@@ -11,8 +11,8 @@ from drake_landing.case.reading import parse_case
 from drake_landing.conditions.balance import holds
 from drake_landing.conditions.build import on_ground
 from drake_landing.process.aircraft import prepare_aircraft
-from drake_landing.process.conditions import DECK, solve
 from drake_landing.process.explain import explain
+from drake_landing.process.static_conditions import DECK, solve
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.solution.run import run_deck

@@ -5,8 +5,8 @@ import pytest
 
 from drake_landing.parts.stress import stresses
 from drake_landing.parts.stress_extremes import Steady, StressExtremes
+from drake_landing.parts.stress_observer import StressWatch
 from drake_landing.parts.stress_rows import stress_maps
-from drake_landing.parts.stress_watch import StressWatch
 from fem.algebra.extension import Extension
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure

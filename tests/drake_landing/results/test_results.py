@@ -15,11 +15,11 @@ from drake_landing.landing.history import (
     LandingHistory,
     gear_peaks,
 )
+from drake_landing.parts.observers import CaseFound, PartsFound
 from drake_landing.parts.places import Places
-from drake_landing.parts.watch import CaseFound, PartsFound
 from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.provenance import Provenance
-from fem.files.aside import write_aside
+from fem.files.atomic import write_aside
 from systems.airframe.modal_body import ModalBody
 
 TIME = np.linspace(0, 1, 11)

@@ -9,8 +9,8 @@ from pyNastran.bdf.cards.properties.bars import PBARL
 
 from benchmarks.verification.runner import run
 from fem.cross_sections.analysis import analyse
-from fem.cross_sections.beam_library import ROUND, SOURCES, library_values
 from fem.cross_sections.library import DIMENSIONS, _divide, analysed, section
+from fem.cross_sections.shear_factors import ROUND, SOURCES, library_values
 
 EXAMPLES: dict[str, tuple[float, ...]] = {
     "ROD": (0.1,),

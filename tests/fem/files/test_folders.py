@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from fem.errors import InputError
-from fem.files.aside import PART, write_aside, written_aside
+from fem.files.atomic import PART, write_aside, written_aside
 from fem.files.folders import claim
 
 HOLD = """

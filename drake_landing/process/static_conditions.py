@@ -36,9 +36,9 @@ from drake_landing.conditions.pictures import load_pictures
 from drake_landing.files import write_csv
 from drake_landing.parts.cuts import envelope_table
 from drake_landing.parts.monitors import monitor_envelopes
+from drake_landing.parts.observers import PartsWatch
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.tables import worst_elements
-from drake_landing.parts.watch import PartsWatch
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter, Silent

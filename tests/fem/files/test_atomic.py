@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
+from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.hdf5 import ResultFile
-from fem.files.hdf5_aside import written_hdf5
 
 
 @contextmanager
@@ -57,7 +57,7 @@ import resource, sys
 from pathlib import Path
 import h5py, numpy as np
 from fem.files.hdf5 import ResultFile
-from fem.files.hdf5_aside import written_hdf5
+from fem.files.atomic_hdf5 import written_hdf5
 
 def write(path):
     with written_hdf5(path) as file:

@@ -9,7 +9,7 @@ import pandas as pd
 from drake_landing.cache import Arrays, Cache, content_key, source_key
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import POINT
-from drake_landing.parts.watch import PartsWatch
+from drake_landing.parts.observers import PartsWatch
 from fem.model.structure import Structure
 from fem.recovery.envelope import Envelope
 

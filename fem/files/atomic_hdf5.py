@@ -16,7 +16,7 @@ from pathlib import Path
 
 import h5py
 
-from fem.files.aside import written_aside
+from fem.files.atomic import written_aside
 
 _LATER = 0.05  # s
 _DESCRIPTION = 1 << 20  # bytes: what HDF5 reads again is no larger

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from fem.errors import InputError
-from fem.given import given_text
+from fem.input_files import given_text
 
 
 def test_text_with_and_without_a_mark(tmp_path):

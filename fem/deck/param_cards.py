@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 
 from fem.deck.lexer import RawCard
-from fem.deck.params import DEFAULTS, WITHOUT_EFFECT, Value, convert
+from fem.deck.param_names import DEFAULTS, WITHOUT_EFFECT, Value, convert
 from fem.deck.source import Line
 from fem.deck.values import Malformed, integer, real
 

@@ -19,7 +19,7 @@ from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.monitors import Station, stations
 from drake_landing.parts.places import Places
 from drake_landing.parts.stress import Stresses, stresses
-from drake_landing.parts.stress_watch import Snapshot, StressWatch
+from drake_landing.parts.stress_observer import Snapshot, StressWatch
 from fem.model.structure import Structure
 from fem.response.observation import Observation, Observer
 
