@@ -7,6 +7,7 @@ where workers are left, or by the next run, which finds the files of all others.
 
 import errno
 import os
+import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -23,6 +24,8 @@ _THREADS = {
 }
 _RETRIES = 2  # of a task whose worker was lost
 _UNDER_WAY = 512  # tasks that the scheduler knows
+_WITHOUT_WORKERS = 300.0  # s, after which it is given up that one comes back
+_PAUSE = 0.02  # s between two looks at what is done
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +42,12 @@ class Pool:
     scheduler: str = "local"
     workers: int | None = None
     memory_gb: float = 0.0
+
+
+class NoWorkers(RuntimeError):
+    """All workers have gone, and none comes back."""
+
+    for_users = True
 
 
 @contextmanager
@@ -137,7 +146,7 @@ class Engine:
         # The scheduler's memory grows with the tasks it knows: it is given some at a
         # time.
         under_way = as_completed([submit(t) for t in islice(waiting, _UNDER_WAY)])
-        for future in under_way:
+        for future in self._completed(under_way):
             under_way.update([submit(t) for t in islice(waiting, 1)])
             task = task_of.pop(future)
             if future.status == "finished":
@@ -149,6 +158,32 @@ class Engine:
                 lost(task, _why(error or future.status))
                 yield None
             future.release()
+
+    def _completed(self, under_way: Any) -> Iterator[Any]:
+        """Futures as they are done.
+
+        Raises:
+            NoWorkers: there is no worker any more, and none comes back.
+        """
+        looked = seen = time.monotonic()
+        while under_way.count():
+            batch = under_way.next_batch(block=False)
+            yield from batch
+            now = time.monotonic()
+            if batch:
+                seen = now
+            elif now - looked > 0.1 * _WITHOUT_WORKERS:
+                looked = now
+                if self._client.scheduler_info()["workers"]:
+                    seen = now
+                elif now - seen > _WITHOUT_WORKERS:
+                    raise NoWorkers(
+                        f"no worker for {_WITHOUT_WORKERS:.0f} s: they end as they "
+                        "start (memory, an installation that changed?); what is done "
+                        "is kept, the same command goes on"
+                    )
+            if not batch:
+                time.sleep(_PAUSE)
 
     @staticmethod
     def _here(
