@@ -1,6 +1,6 @@
 """All elements of a deck with what is told of them: component, place, material."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar
@@ -163,6 +163,34 @@ def _placed(structure: Structure, table: pd.DataFrame) -> pd.DataFrame:
     return table
 
 
+_SOFT = 0.1  # of the stiffest ply: modulus below which a ply fills and does not bear
+
+
+def ply_moduli(cards: Mapping[str, pd.DataFrame]) -> dict[int, tuple[float, bool]]:
+    """Material id -> its largest modulus (Pa), and whether it is isotropic."""
+    found: dict[int, tuple[float, bool]] = {}
+    for name, columns in (("MAT2", ["g11", "g22"]), ("MAT8", ["e1", "e2"])):
+        if name in cards:
+            card = cards[name]
+            largest = card[columns].max(axis=1)
+            found |= {int(m): (float(e), False) for m, e in zip(card.mid, largest)}
+    card = cards["MAT1"]
+    return found | {int(m): (float(e), True) for m, e in zip(card.mid, card.e)}
+
+
+def isotropic_sheets(
+    mids: Iterable[float], moduli: Mapping[int, tuple[float, bool]]
+) -> list[int]:
+    """Isotropic materials of a laminate that bear; a soft core is none of them."""
+    plies = [int(mid) for mid in mids]
+    stiffest = max((moduli[m][0] for m in plies if m in moduli), default=0.0)
+    return [
+        m
+        for m in plies
+        if m in moduli and moduli[m][1] and moduli[m][0] >= _SOFT * stiffest
+    ]
+
+
 def _materials(cards: Mapping[str, pd.DataFrame]) -> dict[int, int]:
     """Property id -> id of the material that bears."""
     isotropic = dict.fromkeys(cards["MAT1"].mid.tolist())
@@ -173,8 +201,9 @@ def _materials(cards: Mapping[str, pd.DataFrame]) -> dict[int, int]:
     for row in cards["PSHELL"].to_dict("records"):
         found[int(row["pid"])] = sheet_material(row, isotropic)
     if "PCOMP" in cards:
+        moduli = ply_moduli(cards)
         for row in cards["PCOMP"].to_dict("records"):
-            sheets = [int(m) for m in row["mids"] if int(m) in isotropic]
+            sheets = isotropic_sheets(row["mids"], moduli)
             found[int(row["pid"])] = sheets[0] if sheets else int(row["mids"][0])
     return found
 

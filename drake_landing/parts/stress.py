@@ -4,8 +4,9 @@
                 itself, from its strains: a skin with stringers smeared into its
                 membrane has resultants that are not its own
     laminates   by the strengths of their plies, where MAT8 or SB give any
-                (`ply_strength`); else von Mises of the isotropic plies; where there are
-                none, the largest principal stress of any ply
+                (`ply_strength`); else von Mises of the isotropic plies that bear; where
+                there are none (MAT8 faces on a soft core), the largest principal stress
+                of any ply
     bars        largest magnitude of the direct stress at the stress points, or axial;
                 where no stress points are given the axial stress is not the worst of a
                 bar that bends: `axial_only`
@@ -25,7 +26,11 @@ import numpy.typing as npt
 import pandas as pd
 import scipy.sparse as sp
 
-from drake_landing.parts.inventory import sheet_material
+from drake_landing.parts.inventory import (
+    isotropic_sheets,
+    ply_moduli,
+    sheet_material,
+)
 from drake_landing.parts.ply_strength import LaminateLimit, laminate_limits
 from fem.algebra.sparse_products import shape_of
 from fem.elements.block import Detail, ElementBlock, Kind
@@ -251,19 +256,20 @@ def _use(
 
 
 def _laminates(structure: Structure, block: Shell) -> StressPart:
-    """Stresses of the isotropic plies, or of all where there are none."""
+    """Stresses of the isotropic plies that bear, or of all where there are none."""
     table = _table(structure.points, block, "stress", Detail())
     recovery = table.parts[0]
     assert isinstance(recovery, PlyRecovery)
     cards = structure.deck.cards
-    isotropic = set(cards["MAT1"].mid.tolist())
+    moduli = ply_moduli(cards)
     mids = dict(zip(cards["PCOMP"].pid, cards["PCOMP"].mids))
     laminate = recovery.laminate
     chosen, pure = [], []
     for k, found in enumerate(recovery.maps):
         pid = int(block.pid[np.flatnonzero(laminate == k)[0]]) if k in laminate else 0
         plies = _plies(mids.get(pid, ()), found)
-        sheets = [i for i, mid in enumerate(plies) if int(mid) in isotropic]
+        bears = set(isotropic_sheets(plies, moduli))
+        sheets = [i for i, mid in enumerate(plies) if mid in bears]
         pure.append(bool(sheets))
         chosen.append(sheets or list(range(len(plies))) or [0])
     most = max(map(len, chosen))

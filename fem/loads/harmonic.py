@@ -99,7 +99,7 @@ def _function(
         return table_function(deck, tid)(frequency_hz)
 
     if name == "RLOAD1":
-        return of("tc") + 1j * of("td")
+        return np.asarray(of("tc") + 1j * of("td"), dtype=complex)
     return of("tb") * np.exp(1j * np.radians(of("tp")))
 
 

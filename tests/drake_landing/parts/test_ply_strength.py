@@ -31,7 +31,7 @@ PCOMP,1,,,{sb},{ft}
 ,1,.002,0.,YES
 MAT8,2,1.+11,1.+10,0.,5.+9,4.+9,4.+9,1600.
 ,,,,1.+9,8.+8,5.+7,2.+8,{s}
-MAT1,1,7.+10,,.0,2700.
+MAT1,1,{core},,.0,2700.
 ,{st}
 SPC1,1,123456,1
 ENDDATA
@@ -43,7 +43,7 @@ COMPLIANCE = np.diag([1e-11, 1e-10, 2e-10])
 
 def judged(folder: Path, exx: float, allowables=None, **fields) -> tuple:
     """Equivalent stress and its allowable under a uniform strain exx."""
-    given = {"sb": "", "ft": "", "s": "7.+7", "st": "", **fields}
+    given = {"sb": "", "ft": "", "s": "7.+7", "st": "", "core": "7.+10", **fields}
     path = folder / "strip.bdf"
     path.write_text(DECK.format(**given))
     model = Structure.from_deck(read_deck(path))
@@ -81,12 +81,19 @@ def test_without_strengths_the_sheet_decides_as_ever(tmp_path):
     assert found[0] == pytest.approx(7e7)
 
 
+def test_a_soft_core_does_not_stand_for_its_faces(tmp_path):
+    """The ply along the fibres has the largest stress: 1e11 e."""
+    found, row = judged(tmp_path, 1e-3, s="", core="7.+7")
+    assert row.material == 2
+    assert found[0] == pytest.approx(1e8)
+
+
 def test_bonding_is_judged_by_the_shear_between_plies(tmp_path):
     """A strip that slides across itself: half the use of twice the allowable."""
     path = tmp_path / "strip.bdf"
     use = []
     for sb in ("1.+6", "2.+6"):
-        path.write_text(DECK.format(sb=sb, ft="", s="", st=""))
+        path.write_text(DECK.format(sb=sb, ft="", s="", st="", core="7.+10"))
         model = Structure.from_deck(read_deck(path))
         u = np.zeros(model.points.size)
         u[2::6] = 1e-4 * model.points.xyz[:, 0]
