@@ -99,8 +99,8 @@ def _function(
         return table_function(deck, tid)(frequency_hz)
 
     if name == "RLOAD1":
-        return np.asarray(of("tc") + 1j * of("td"), dtype=complex)
-    return of("tb") * np.exp(1j * np.radians(of("tp")))
+        return (of("tc") + 1j * of("td")).astype(np.complex128)
+    return (of("tb") * np.exp(1j * np.radians(of("tp")))).astype(np.complex128)
 
 
 def frequencies(deck: "Deck", subcase: Subcase) -> Float64:
