@@ -21,6 +21,7 @@ _RIGID = 6
 _MOVES = 1e-3  # share of the largest displacement
 _HOLDS = 1e-6  # share of the largest energy of a rigid motion
 _SWEEPS = 30
+_MANY, _ON_PLANE = 12, 1e-4  # grids; distance from a plane over the largest extent
 _AXES = ("x", "y", "z", "rotation x", "rotation y", "rotation z")
 
 
@@ -37,6 +38,8 @@ def check_free_flight(structure: Structure) -> None:
     rigid = count - sum(loose.values())
     if rigid < _RIGID:
         problems.append(f"{rigid} rigid-body modes, expected 6: {_held(structure)}")
+    if rigid < _RIGID or loose:
+        problems = [*half_model(structure.points.xyz), *problems]
     if loose:
         problems.append(
             f"{count} motions without stiffness, expected the 6 of a free-flying "
@@ -47,6 +50,39 @@ def check_free_flight(structure: Structure) -> None:
     ]
     if problems:
         raise InputError(f"{structure.deck.path}: {text}" for text in problems)
+
+
+def half_model(p: Float64) -> list[str]:
+    """A sentence, if the grids look like one half of a symmetric aircraft.
+
+    Many of them lie along a plane of the basic frame and none beyond it, and no other
+    axis has as much on one side as on the other, as a whole aircraft of beams in one
+    plane has.
+
+    Args:
+        p: (g, 3) basic positions.
+    """
+    if len(p) < _MANY:
+        return []
+    low, high = p.min(axis=0), p.max(axis=0)
+    size = (high - low).max()
+    if np.any((np.abs(low + high) < 0.02 * size) & (high - low > 0.3 * size)):
+        return []
+    for axis, name in enumerate("xyz"):
+        near = np.abs(p[:, axis]) < _ON_PLANE * size
+        along = near.sum() >= _MANY and np.ptp(p[near], axis=0).max() > 0.3 * size
+        for side, inner, outer in (
+            (">=", low[axis], high[axis]),
+            ("<=", -high[axis], -low[axis]),
+        ):
+            if along and inner > -_ON_PLANE * size and outer > 0.1 * size:
+                return [
+                    f"all grids lie at {name} {side} 0 and {near.sum()} of them on "
+                    f"{name} = 0: half a model; expected the whole aircraft: mirror "
+                    "it, with what lies on the plane once, and take out the supports "
+                    "there"
+                ]
+    return []
 
 
 def check_mass(structure: Structure) -> None:

@@ -120,5 +120,6 @@ def _summary(result: CampaignResult, decks: int) -> str:
     if len(result.failed) > 10:
         lines.append(f"... {len(result.failed)} cases failed or are suspect")
     if decks:
-        lines.append(f"{decks} decks of equivalent static cases in static/")
+        of = f"deck{'s' * (decks > 1)} of equivalent static cases"
+        lines.append(f"{decks} {of} in static/")
     return "\n".join(lines)

@@ -77,7 +77,9 @@ def engine(pool: Pool) -> Iterator["Engine"]:
                 threads_per_worker=1,
                 processes=True,
                 memory_limit=int(pool.memory_gb * 1e9) or 0,
-                dashboard_address=None,
+                # It has a server for its state in any case: here, at any port.
+                dashboard_address="127.0.0.1:0",
+                scheduler_kwargs={"dashboard": False},
                 silence_logs=50,
             )
             with cluster, Client(cluster) as client:

@@ -13,6 +13,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from drake_landing.airframe.free_flight import half_model
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.selection import expected_pulses
 from drake_landing.cache import Cache
@@ -27,10 +28,10 @@ from fem.deck.units import in_si, units_of
 from fem.errors import InputError
 from fem.model.structure import Structure
 
-# Young's modulus of what aircraft are made of, from plastics to steel, in each system.
-_MODULI = {"SI": (1e9, 1e12), "mm-t-N": (1e3, 1e6), "in-lbf": (1.5e5, 1e8)}
+# Young's modulus of aluminium in each system; titanium, steel and fibres are near.
 _METALS = {"SI": 7e10, "mm-t-N": 7e4, "in-lbf": 1e7}
 _GRAVITY = 9.81  # m/s²
+_INCH_GRAVITY = 386.1  # in/s²
 _NOSE_SHARE = 0.1  # of the weight
 _STROKE, _STATIC = 0.35, 0.7  # m; share of the stroke at rest
 _CANDIDATES = 4
@@ -93,23 +94,35 @@ def _transient(case: Case) -> str:
 
 
 def guess_units(deck: Deck) -> str:
-    """The system in which the median modulus of MAT1 is next to that of a metal.
-
-    Without MAT1 the largest extent of the grids decides: metres below 150.
+    """By PARAM WTMASS of 1/386.1 (lbf), else the system in which most moduli of MAT1,
+    MAT2 and MAT8 are those of metals and fibres; without any the largest extent of the
+    grids decides: metres below 150.
     """
-    moduli = deck.cards["MAT1"]["e"].to_numpy(float)
+    if abs((deck.number("WTMASS") or 1.0) * _INCH_GRAVITY - 1.0) < 0.02:
+        return "in-lbf"
+    columns = {"MAT1": "e", "MAT2": "g11", "MAT8": "e1"}
+    found = [deck.cards[n][c].to_numpy(float) for n, c in columns.items()]
+    moduli = np.concatenate(found)
     moduli = moduli[moduli > 0.0]
     if len(moduli):
+        hits = {
+            name: int(np.sum((moduli >= 0.3 * metal) & (moduli <= 6.0 * metal)))
+            for name, metal in _METALS.items()
+        }
+        if most := max(hits.values()):
+            fits = [name for name, hit in hits.items() if hit == most]
+        else:
+            fits = list(_METALS)
         e = float(np.median(moduli))
-        fits = [n for n, (low, high) in _MODULI.items() if low <= e <= high]
-        fits = fits or list(_MODULI)
         return min(fits, key=lambda n: abs(np.log(e / _METALS[n])))
     p = deck.cards["GRID"][["x1", "x2", "x3"]].to_numpy(float)
     return "SI" if np.ptp(p, axis=0).max() < 150.0 else "mm-t-N"
 
 
 def _layout(structure: Structure) -> _Layout:
-    p, weight = structure.points.xyz, structure.weight
+    p, weight = structure.points.xyz, structure.rigid_mass
+    if problems := half_model(p):
+        raise InputError(f"{structure.deck.path}: {text}" for text in problems)
     if weight.total <= 0.0:
         raise InputError("the deck has no mass, expected that of an airframe")
     lateral = _lateral(p)

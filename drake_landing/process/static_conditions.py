@@ -96,7 +96,7 @@ def run_conditions(
     Raises:
         InputError: everything that is wrong with deck, gears and conditions.
     """
-    with case.places.located():
+    with case.reading():
         return _run(case, out, Stages(progress or Silent()))
 
 

@@ -5,12 +5,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from drake_landing.airframe.free_flight import half_model
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import load_case
 from drake_landing.case.schema import Case
 from drake_landing.cli import app, guarded
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.new_case import guess_units
+from fem.deck.reader import read_deck
 from tests.drake_landing.one_aircraft import FRAMES, MM_T_N, SI, WEIGHTS, case_of
 
 HERE = Path(__file__).parents[1]
@@ -62,3 +65,31 @@ def test_a_case_that_is_there_is_left(
     assert guarded(app, ["new", str(path), "--deck", str(COMMUTER)]) == 2
     assert path.read_text() == "mine"
     assert "is there already" in capsys.readouterr().err
+
+
+def test_half_a_model_is_said_and_a_whole_one_is_not() -> None:
+    whole = np.array(
+        [
+            (x, y, z)
+            for x in np.linspace(0.0, 20.0, 15)
+            for y in np.linspace(-9.0, 9.0, 7)
+            for z in (0.0, 2.0)
+        ]
+    )
+    assert half_model(whole) == []
+    (text,) = half_model(whole[whole[:, 1] >= 0.0])
+    assert "y >= 0" in text
+    assert "30 of them on y = 0" in text
+    (text,) = half_model(whole[whole[:, 1] <= 0.0] @ np.diag([1.0, 1.0, 0.1]))
+    assert "y <= 0" in text
+
+
+def test_weights_in_pounds_say_their_units(tmp_path: Path) -> None:
+    deck = tmp_path / "deck.bdf"
+    deck.write_text(
+        "CEND\nBEGIN BULK\nPARAM,WTMASS,.00259\nGRID,1,,0.,0.,0.\n"
+        "MAT1,1,325.,,.3\nMAT1,2,1.+7,,.3\nENDDATA\n"
+    )
+    assert guess_units(read_deck(deck)) == "in-lbf"
+    deck.write_text(deck.read_text().replace("PARAM,WTMASS,.00259\n", ""))
+    assert guess_units(read_deck(deck)) == "in-lbf"  # by the metal, not the core
