@@ -7,7 +7,6 @@ from typing import Literal, Self
 from pydantic import Field, ValidationInfo, field_validator, model_validator
 
 from drake_landing.case.section import Section
-from fem.deck.mass_increments import masssets_of
 from fem.errors import InputError, nearest
 
 Span = tuple[int, int]
@@ -92,6 +91,8 @@ def mass_case_of(
     """
     if name in cases:
         return cases[name]
+    from fem.deck.mass_increments import masssets_of  # heavy, and seldom needed
+
     known = masssets_of(deck) if deck is not None and deck.is_file() else {}
     if name in known:
         return MassCase(massset=known[name])

@@ -136,7 +136,7 @@ def test_a_picture_that_fails_costs_the_picture(tmp_path, monkeypatch, out):
         "drake_landing.report.write_report", lambda _, *about: written.append(about)
     )
     process.write_all(result, tmp_path, watch)
-    found, pictures, unable = written[0]
+    found, pictures, unable, *_ = written[0]
     assert "landing.html, the replay, could not be made: RuntimeError: no browser" in (
         found.notices
     )
