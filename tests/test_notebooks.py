@@ -13,7 +13,7 @@ from nbclient import NotebookClient
 
 FOLDER = Path(__file__).resolve().parents[1] / "notebooks"
 NOTEBOOKS = sorted(path.stem for path in FOLDER.glob("*.ipynb"))
-LONG = {"05_studies"}  # a minute even when it is quick
+LONG = {"04_scenarios", "05_studies"}  # half a minute and more even when quick
 
 # Appended to a notebook as its last cell.
 ALWAYS = {

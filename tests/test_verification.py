@@ -10,6 +10,7 @@ from benchmarks.verification.table import page
 LONG = {
     *("straight_beam", "rectangular_plates", "plates", "plate_transients"),
     *("quadratic_cantilevers", "thick_plate"),
+    "plate_reactions",
     "plates_that_buckle",
     *("curved_roof", "curved_hemisphere", "plates_of_any_thickness"),
 }

@@ -153,6 +153,7 @@ def test_files(quick: Study, folder: Path) -> None:
         assert file["multibody"].shape == file["transient"].shape
 
 
+@pytest.mark.slow
 def test_second_time_computes_nothing(
     quick: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -166,6 +167,7 @@ def test_second_time_computes_nothing(
     pd.testing.assert_frame_equal(again.comparison, quick.comparison)
 
 
+@pytest.mark.slow
 def test_an_interrupted_study_keeps_its_landings(
     quick: Study, folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -127,7 +127,9 @@ def test_the_deck_is_good(tmp_path):
     assert not any("without effect" in notice for notice in deck.notices)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize(
+    "seed", [pytest.param(k, marks=[pytest.mark.slow] * (k >= 6)) for k in range(20)]
+)
 def test_mutated_decks_end_in_a_message_or_a_deck(tmp_path, seed):
     rng = random.Random(seed)
     for _ in range(20):

@@ -71,7 +71,10 @@ def test_the_deck_is_good(tmp_path, capsys):
 
 
 @pytest.mark.timeout(30)
-@pytest.mark.parametrize("seed", range(200))
+@pytest.mark.parametrize(
+    "seed",
+    [pytest.param(k, marks=[pytest.mark.slow] * (k >= 40)) for k in range(200)],
+)
 def test_a_malformed_deck_ends_in_a_message_or_a_right_answer(seed, tmp_path, capsys):
     path = tmp_path / "model.bdf"
     path.write_text(mutate(good_deck(), random.Random(seed)), encoding="utf-8")
