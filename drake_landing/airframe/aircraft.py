@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from drake_landing.case.scenario import Lift, Scenario
+from drake_landing.case.lift import Lift
+from drake_landing.case.scenario import Scenario
 from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import ParametricAircraft
 from fem.arrays import Float64

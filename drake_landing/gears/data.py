@@ -25,19 +25,14 @@ from pydantic import (
     model_validator,
 )
 
+from drake_landing.gears.fields import Data
+from drake_landing.gears.fields import Vector3 as Vector3
 from drake_landing.gears.legs import Leg, require_over_stroke
 from drake_landing.gears.model_file import FIELDS, ModelFile, with_bodies
-from drake_landing.gears.parts import (
-    Brake,
-    Data,
-    FurtherAttachment,
-    PitchDamper,
-    ShockAbsorber,
-    Tyre,
-    Wheel,
-)
+from drake_landing.gears.parts import Brake, FurtherAttachment, PitchDamper, Wheel
 from drake_landing.gears.parts import RigidPart as RigidPart
-from drake_landing.gears.parts import Vector3 as Vector3
+from drake_landing.gears.shock_absorber_data import ShockAbsorber
+from drake_landing.gears.tyre_data import Tyre
 
 _WIDEST = 5.0  # m
 _PIVOT_AXES = "the pivot's axis is the lateral one"

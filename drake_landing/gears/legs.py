@@ -19,7 +19,7 @@ from pydantic import (
 )
 
 from drake_landing.files import relative_to_case
-from drake_landing.gears.parts import Data, Positive, Table, Vector3
+from drake_landing.gears.fields import Data, Positive, Table, Vector3
 
 _HIGHEST = 200.0  # Hz
 

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field, ValidationError
 
-from drake_landing.gears.parts import Data, InputFile, Vector3
+from drake_landing.gears.fields import Data, InputFile, Vector3
 
 Float64 = npt.NDArray[np.float64]
 

@@ -5,7 +5,9 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, overload
 
-from drake_landing.gears.parts import Brake, PitchDamper, ShockAbsorber, Tyre
+from drake_landing.gears.parts import Brake, PitchDamper
+from drake_landing.gears.shock_absorber_data import ShockAbsorber
+from drake_landing.gears.tyre_data import Tyre
 from systems.gear.bogie_pitch import BogiePitchParameters
 from systems.gear.brake import AntiSkid, BrakeParameters
 from systems.runway.runway import Runway

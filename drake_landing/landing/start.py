@@ -7,19 +7,18 @@ import numpy as np
 import numpy.typing as npt
 from pydrake.systems.framework import Context
 
-from drake_landing.case.scenario import (
+from drake_landing.case.lift import Following, ReverseThrust
+from drake_landing.case.lift import Lift as LiftSection
+from drake_landing.case.runway import (
     AnyProfile,
     Bump,
-    Following,
     Measured,
     Ramp,
-    ReverseThrust,
     Roughness,
     RunwaySection,
-    Scenario,
     WaveTrain,
 )
-from drake_landing.case.scenario import Lift as LiftSection
+from drake_landing.case.scenario import Scenario
 from drake_landing.gears.bodies import wheel_centres
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram

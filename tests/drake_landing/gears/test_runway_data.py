@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from drake_landing.case.reading import parse_case
-from drake_landing.case.scenario import RunwaySection
+from drake_landing.case.runway import RunwaySection
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.start import runway_of
 from fem.errors import InputError

@@ -6,7 +6,7 @@ import pytest
 
 from drake_landing.case.reading import parse_case
 from drake_landing.gears.parameters import shock_absorber_parameters
-from drake_landing.gears.parts import ShockAbsorber
+from drake_landing.gears.shock_absorber_data import ShockAbsorber
 from drake_landing.reference.d150.gears import landing_gears
 from fem.errors import InputError
 from systems.shock_absorber.orifice_damper import orifice_force

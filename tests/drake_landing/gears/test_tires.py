@@ -7,7 +7,7 @@ import pytest
 
 from drake_landing.case.reading import parse_case
 from drake_landing.gears.parameters import tire_parameters
-from drake_landing.gears.parts import Tyre
+from drake_landing.gears.tyre_data import Tyre
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.reference.d150.gears import landing_gears
 from fem.errors import InputError

@@ -1,0 +1,49 @@
+"""Kinds of fields that the data of gears have, with their checks."""
+
+from itertools import pairwise
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+)
+
+Vector3 = tuple[float, float, float]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+
+
+def _ascending(table: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    for (before, _), (after, _) in pairwise(table):
+        if not after > before:
+            raise ValueError(
+                f"{after:g} follows {before:g}, expected strictly ascending abscissae"
+            )
+    return table
+
+
+Table = Annotated[
+    list[tuple[float, float]], Field(min_length=2), AfterValidator(_ascending)
+]
+
+
+def _existing(path: Path, info: ValidationInfo) -> Path:
+    """A file relative to the folder of the case."""
+    folder = (info.context or {}).get("folder")
+    path = Path(folder, path) if folder else path
+    if not path.is_file():
+        raise ValueError(f"found {path}, expected a file that is there")
+    return path
+
+
+InputFile = Annotated[Path, AfterValidator(_existing)]
+
+
+class Data(BaseModel):
+    """Frozen; unknown keys are errors."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
