@@ -6,7 +6,11 @@ from functools import partial
 from pathlib import Path
 
 from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.body import check_nodes
 from drake_landing.airframe.damping import with_damping
+from drake_landing.airframe.deck_units import check_units
+from drake_landing.airframe.free_flight import check_mass
+from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.airframe.mass_cases import check_target, write_mass_case
 from drake_landing.airframe.steady import steady_flight
 from drake_landing.case.axes import rotation_AB
@@ -28,6 +32,24 @@ from fem.deck.units import in_si, units_of
 from fem.errors import InputError, nearest
 from fem.files.escaping import file_name
 from fem.model.structure import Structure
+
+
+def checked_aircraft(
+    case: Case, out: Path
+) -> tuple[Aircraft, Structure, tuple[str, ...]]:
+    """The aircraft of a case, its full model, and remarks on how its gears sit.
+
+    Raises:
+        InputError: as `prepare_aircraft`; grids that are not there or do not move, no
+            mass, units that cannot be meant, gears that cannot land.
+    """
+    aircraft = prepare_aircraft(case, out)
+    structure = aircraft.structure()
+    check_nodes(structure, aircraft)
+    check_mass(structure)
+    check_units(structure, aircraft)
+    R_AB = rotation_AB(case.airframe.axes)
+    return aircraft, structure, tuple(check_gears(structure, aircraft, R_AB))
 
 
 def prepare_aircraft(case: Case, out: Path) -> Aircraft:

@@ -14,11 +14,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
-from drake_landing.airframe.body import check_nodes, rigid_airframe
+from drake_landing.airframe.body import rigid_airframe
 from drake_landing.airframe.damping import damping_story
-from drake_landing.airframe.deck_units import check_units
-from drake_landing.airframe.free_flight import check_free_flight, check_mass
-from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.airframe.free_flight import check_free_flight
 from drake_landing.airframe.gear_places import clearances, pitch_of_all
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.mass_cases import loaded
@@ -36,7 +34,7 @@ from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
-from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import parts_looked_at
 from drake_landing.process.static_conditions import condition_figures
 from drake_landing.results.files import FILES
@@ -83,12 +81,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         StepRefused: nothing but the transient's step, with the explanation.
     """
     with case.reading(), TemporaryDirectory() as folder:
-        aircraft = prepare_aircraft(case, Path(folder))
-        structure = aircraft.structure()
-        check_nodes(structure, aircraft)
-        check_mass(structure)
-        check_units(structure, aircraft)
-        remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
+        aircraft, structure, remarks = checked_aircraft(case, Path(folder))
         nodes = np.array(sorted(aircraft.attachment_nodes), dtype=np.int64)
         parts_looked_at(case, aircraft, structure, nodes)
         cost, step, truncated, refused = None, None, "", None

@@ -14,10 +14,7 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.airframe.aircraft import Aircraft
-from drake_landing.airframe.body import AirframeModel, check_nodes, load_airframe
-from drake_landing.airframe.deck_units import check_units
-from drake_landing.airframe.free_flight import check_mass
-from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.airframe.body import AirframeModel, load_airframe
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.relevance import ModalModel
 from drake_landing.airframe.selection import expected_pulses, modal_model
@@ -37,7 +34,7 @@ from drake_landing.parts import tables
 from drake_landing.parts.buckling import with_margin
 from drake_landing.parts.observers import PartsWatch
 from drake_landing.parts.stress import stress_point_notices
-from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import FullResponse, full_response
 from drake_landing.process.landing_deck import check_landing_deck, write_landing_deck
 from drake_landing.progress import Reporter
@@ -89,15 +86,10 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
 
     cache = Cache.of_user()
     stages.begin("reading the deck")
-    aircraft = prepare_aircraft(case, out)
+    aircraft, structure, remarks = checked_aircraft(case, out)
     provenance = Provenance.begin(case, aircraft, out)
-    structure = aircraft.structure()
-    check_nodes(structure, aircraft)
-    check_units(structure, aircraft)
-    remarks = check_gears(structure, aircraft, rotation_AB(case.airframe.axes))
     stages.begin("assembling the matrices")
     _assemble(structure)
-    check_mass(structure)
     stages.begin("expected error of the time step")
     shapes = load_model(structure, aircraft, cache)
     pulses = expected_pulses(structure, case.airframe, aircraft, aircraft.scenario)

@@ -13,10 +13,7 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.airframe.aircraft import Aircraft
-from drake_landing.airframe.body import check_nodes, load_airframe
-from drake_landing.airframe.deck_units import check_units
-from drake_landing.airframe.free_flight import check_mass
-from drake_landing.airframe.gear_checks import check_gears
+from drake_landing.airframe.body import load_airframe
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.conditions import Conditions
@@ -39,7 +36,7 @@ from drake_landing.parts.monitors import monitor_envelopes
 from drake_landing.parts.observers import PartsWatch
 from drake_landing.parts.slices import balanced
 from drake_landing.parts.tables import worst_elements
-from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter, Silent
 from drake_landing.results.stages import Stages
@@ -103,13 +100,8 @@ def run_conditions(
 def _run(case: Case, out: Path, stages: Stages) -> ConditionsResult:
     out.mkdir(parents=True, exist_ok=True)
     stages.begin("reading the deck")
-    aircraft = prepare_aircraft(case, out)
-    structure = aircraft.structure()
-    check_nodes(structure, aircraft)
-    check_units(structure, aircraft)
+    aircraft, structure, remarks = checked_aircraft(case, out)
     R_AB = rotation_AB(case.airframe.axes)
-    remarks = check_gears(structure, aircraft, R_AB)
-    check_mass(structure)
     stages.begin("eigenmodes")
     airframe = load_airframe(
         case.airframe,

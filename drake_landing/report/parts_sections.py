@@ -10,9 +10,9 @@ import pandas as pd
 from drake_landing.case.axes import deck_axes
 from drake_landing.parts import tables
 from drake_landing.parts.buckling import COARSE, BuckledPanels, with_margin
-from drake_landing.parts.observers import PartsFound
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
+from drake_landing.report.section_loads import monitor_points, section_loads
 from drake_landing.results.comparison import shock_response_spectrum
 from drake_landing.transient.practices import HYBRID, RIGID, STATIC, Practices
 
@@ -21,10 +21,6 @@ if TYPE_CHECKING:
 
 SPECTRUM_HZ = np.geomspace(2.0, 200.0, 120)
 Picture = tuple[Path, str]
-# Beams whose loads differ less are mirror images and are shown once.
-_ALIKE = 0.01
-MINUS = "\N{MINUS SIGN}"  # no line is broken after it
-_NOUGHT = 1e-6  # of the largest of all parts: rounding
 
 _COMPONENT = {
     "component": "component",
@@ -62,9 +58,9 @@ def parts_sections(
         unable: why there are none.
         buckling: pictures of the mode that buckles first.
     """
-    yield _section_loads(result)
+    yield section_loads(result)
     if result.parts.stations:
-        yield _monitor_points(result)
+        yield monitor_points(result)
     yield _stresses(result, pictures, unable)
     if result.buckled is not None:
         yield _buckling(result, result.buckled, buckling)
@@ -234,138 +230,6 @@ def _mega(table: pd.DataFrame) -> pd.DataFrame:
     columns = ["equivalent", "increment", "largest", "smallest", "allowed"]
     columns = [c for c in columns if c in table]
     return table.assign(**{c: table[c] / 1e6 for c in columns})
-
-
-def _section_loads(result: "ProcessResult") -> Section:
-    found = result.parts
-    blocks, left_out = [], []
-    shown: list[tuple[str, np.ndarray]] = []
-    size = {n: _size(c.named(found.landing.sections[n])) for n, c in found.cuts.items()}
-    nought = _NOUGHT * max(size.values(), default=0.0)
-    for name, cuts in found.cuts.items():
-        loads = found.landing.sections[name]
-        named = np.abs(cuts.named(loads))
-        if size[name] <= nought:
-            left_out.append(
-                f"{name} (its shear, bending and torsion are nought by symmetry)"
-            )
-            continue
-        twin = next((n for n, other in shown if _alike(named, other)), None)
-        if twin is not None:
-            left_out.append(f"{name} (the mirror image of {twin})")
-            continue
-        shown.append((name, named))
-        bending = cuts.named(loads)[:, found.looked_at[name], 1]
-        worst = int(np.argmax(np.abs(bending)))
-        blocks += [
-            Block(svg=figures.section_envelopes(cuts, found.time, loads, worst)),
-            Block(svg=figures.root_histories(cuts, found, result.practices)),
-        ]
-    if shown:
-        blocks.append(_section_table(result, [name for name, _ in shown]))
-    also = f" Left out: {'; '.join(left_out)}." if left_out else ""
-    return Section(
-        id="sections",
-        title="Section loads",
-        text="Load case: the landing, as increments to steady flight. Elements that "
-        "cross a plane are cut; a section load is the resultant of the gears' loads "
-        "and of the inertia of all that lies on the outer side. Shear is upward, "
-        "bending lifts the outer end, torsion turns about the outward direction (of "
-        "vertical parts shear and bending are to starboard); their axes in the deck "
-        "stand in the table. Moments refer to a point of each cut, in the table: "
-        f"{_points_said(found)}. Shaded: extremes over time; dashed: when bending at "
-        "the cut below is largest. The equilibrium of the whole airframe is missed by "
-        f"{found.imbalance[0]:.0e} of the largest applied force and "
-        f"{found.imbalance[1]:.0e} of the moment.{also} All six components, "
-        "fore-and-aft shear and bending among them: results.h5, group parts/sections; "
-        "extremes: section_loads.csv.",
-        blocks=blocks,
-    )
-
-
-def _monitor_points(result: "ProcessResult") -> Section:
-    table = tables.monitor_extremes(result.parts)
-    table[["min", "max"]] /= 1e3
-    heads = {
-        "name": "monitor point",
-        "label": "label",
-        "card": "card",
-        "frame": "axes of frame",
-        "point_x": "about x m",
-        "point_y": "y m",
-        "point_z": "z m",
-        "quantity": "quantity",
-        "min": "least kN, kN m",
-        "time_of_min": "at s",
-        "max": "largest kN, kN m",
-        "time_of_max": "at s ",
-    }
-    formats = {"min": ".2f", "max": ".2f"}
-    formats |= dict.fromkeys(("point_x", "point_y", "point_z"), ".2f")
-    formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
-    return Section(
-        id="monitors",
-        title="Monitor points of the deck",
-        text="As increments to steady flight. MONPNT1: the gears' loads and the "
-        "inertia of the grids of its component. MONPNT3: the elastic forces of the "
-        "elements at its grids. F1 to M3 along the axes of the frame CD, moments about "
-        "the point, which stands in the deck's basic frame. Over time: "
-        "monitor_histories.csv, results.h5, group parts/monitor_points.",
-        blocks=[table_block(table, heads, formats, "Extremes")],
-    )
-
-
-def _size(named: np.ndarray) -> float:
-    return float(np.abs(named).max(initial=0.0))
-
-
-def _points_said(found: PartsFound) -> str:
-    lines = [name for name, cuts in found.cuts.items() if cuts.beam.line is not None]
-    if len(lines) == len(found.cuts):
-        return "where the part's reference line meets the cut"
-    centre = "the EA-weighted centre of the elements that are cut"
-    if not lines:
-        return centre
-    return f"{centre}; of {', '.join(lines)} where its reference line meets the cut"
-
-
-def _alike(a: np.ndarray, b: np.ndarray) -> bool:
-    return a.shape == b.shape and bool(np.abs(a - b).max() <= _ALIKE * np.abs(b).max())
-
-
-def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
-    """Extremes at the cuts that are looked at over time."""
-    table = tables.section_envelopes(result.parts)
-    at = result.parts.looked_at
-    first = [float(result.parts.cuts[n].beam.stations[at[n]]) for n in names]
-    keep = [
-        (row.beam, row.station) in set(zip(names, first)) for row in table.itertuples()
-    ]
-    table = table[keep].copy()
-    kilo = ["min", "max"]
-    table[kilo] = table[kilo] / 1e3
-    table["cut"] = [f"{row.axis} = {row.station:z.2f} m" for row in table.itertuples()]
-    table["acts"] = [
-        f"{row.quantity} {'along' if row.quantity == 'shear' else 'about'} "
-        f"{row.direction.replace('-', MINUS)}"
-        for row in table.itertuples()
-    ]
-    heads = {
-        "beam": "part",
-        "cut": "cut at",
-        "point_x": "point x m",
-        "point_y": "y m",
-        "point_z": "z m",
-        "acts": "quantity",
-        "min": "least kN or kN m",
-        "time_of_min": "at s",
-        "max": "largest kN or kN m",
-        "time_of_max": "at s ",
-    }
-    formats = {"min": ".1f", "max": ".1f"}
-    formats |= dict.fromkeys(("point_x", "point_y", "point_z"), ".2f")
-    formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
-    return table_block(table, heads, formats, "Extremes at these cuts")
 
 
 def _panels(result: "ProcessResult") -> Section:

@@ -33,6 +33,7 @@ from pydrake.systems.framework import Context, LeafSystem, ValueProducer
 from systems.attachment import attachment_solve
 from systems.attachment.attachment_points import AttachmentPoint, HoldPattern, Rows
 from systems.gear.gear_forces import spatial_forces
+from systems.tools.plant_context import declare_plant_context
 from systems.tools.rotations import rotation_from_quaternion
 from systems.tools.weak_methods import weakly
 
@@ -283,14 +284,7 @@ class RigidAttachment(Attachment):
         self._blocks = np.array([*starts, plant.num_velocities()])
 
     def _sources(self) -> set:
-        self._context: Any = self.DeclareCacheEntry(
-            "plant_context",
-            ValueProducer(
-                allocate=weakly(self._new_context),
-                calc=weakly(self._calc_context),
-            ),
-            {self._state.ticket()},
-        )
+        self._context = declare_plant_context(self, self._plant)
         return {
             self._context,
             self._spatial,
@@ -298,13 +292,6 @@ class RigidAttachment(Attachment):
             self._acceleration,
             self._compliance,
         }
-
-    def _new_context(self) -> Value:
-        return Value(self._plant.CreateDefaultContext())
-
-    def _calc_context(self, context, value) -> None:
-        state = self._state.Eval(context)
-        self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
 
     def _free_force(self, context, plant_context) -> Float64:
         """(nv,) generalised force M v'_free of everything but the attachments."""

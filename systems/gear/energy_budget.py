@@ -5,17 +5,16 @@ from typing import Any
 
 import numpy as np
 from pydrake.autodiffutils import AutoDiffXd
-from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import (
     BasicVector_,
     DiagramBuilder,
     LeafSystem,
     LeafSystem_,
-    ValueProducer,
 )
 from pydrake.systems.scalar_conversion import TemplateSystem
 
+from systems.tools.plant_context import declare_plant_context
 from systems.tools.template import default_instantiation
 from systems.tools.weak_methods import weakly
 
@@ -72,14 +71,7 @@ def EnergyBudget_(T):
             self._powers = [declare(f"power_{name}", 1) for name in dissipating]
             self._supplies = [declare(f"supply_{name}", 1) for name in supplying]
             self.DeclareContinuousState(BasicVector_[T]([0.0, 0.0]))
-            self._context: Any = self.DeclareCacheEntry(
-                "plant_context",
-                ValueProducer(
-                    allocate=weakly(self._new_context),
-                    calc=weakly(self._calc_context),
-                ),
-                {self._state.ticket()},
-            )
+            self._context = declare_plant_context(self, self._plant)
             integrals = {self.xc_ticket()}
             sources = {port.ticket() for port in self._stored} | {
                 self._context.ticket()
@@ -91,13 +83,6 @@ def EnergyBudget_(T):
 
         def _construct_copy(self, other, converter=None):
             Impl._construct(self, *other._given, converter=converter)
-
-        def _new_context(self) -> Value:
-            return Value(self._plant.CreateDefaultContext())
-
-        def _calc_context(self, context, value) -> None:
-            state = self._state.Eval(context)
-            self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
 
         def DoCalcTimeDerivatives(self, context, derivatives) -> None:
             lost, supplied = (

@@ -25,6 +25,7 @@ from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.gear.joint_tree import JointTree
 from systems.gear.lever_strut import LeverGeometry, LeverStrut
+from systems.tools.plant_context import declare_plant_context
 from systems.tools.scalar import sqrt
 from systems.tools.template import default_instantiation
 from systems.tools.weak_methods import weakly
@@ -84,14 +85,7 @@ def WheelKinematics_(T):
                 "plant_state", plant.num_multibody_states()
             )
             state = {self._state.ticket()}
-            self._context: Any = self.DeclareCacheEntry(
-                "plant_context",
-                ValueProducer(
-                    allocate=weakly(self._new_context),
-                    calc=weakly(self._calc_context),
-                ),
-                state,
-            )
+            self._context = declare_plant_context(self, self._plant)
             self._motion: Any = self.DeclareCacheEntry(
                 "motion",
                 ValueProducer(
@@ -183,13 +177,6 @@ def WheelKinematics_(T):
                 output.SetFromVector([x / length, y / length, z / length])
 
             return weakly(MethodType(calc, self))
-
-        def _new_context(self) -> Value:
-            return Value(self._plant.CreateDefaultContext())
-
-        def _calc_context(self, context, value):
-            state = self._state.Eval(context)
-            self._plant.SetPositionsAndVelocities(value.get_mutable_value(), state)
 
         def _calc_motion(self, context, value):
             """Wheels (k, 12), their Jacobian (6 k, nv), axes of struts (s, 3)."""
