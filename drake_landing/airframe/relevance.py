@@ -189,16 +189,6 @@ class Relevance:
         """
         return self._rms(self.gram, self._missing(modes)) / self.size
 
-    def axis_error(self, modes: Int64) -> Float64:
-        """(p, 3) as `error`, component by component; NaN for those that vanish."""
-        every = np.ones(len(self.gram), bool)
-        whole = self._mean_square(self.gram, every)
-        lost = self._mean_square(self.gram, self._missing(modes))
-        counts = whole > (1e-3 * whole.max()) ** 2
-        ratio = np.full(whole.shape, np.nan)
-        ratio[counts] = np.sqrt(lost[counts] / whole[counts])
-        return ratio
-
     def count_for(self, error: float) -> int:
         """Least number of most relevant modes with an expected error, at every point.
 

@@ -97,7 +97,12 @@ def mass_case_of(
     if name in known:
         return MassCase(massset=known[name])
     names = [*cases, *known]
-    listed = ", ".join(names) or "none: neither mass_cases nor MASSSET of the deck"
+    if not names:
+        raise InputError(
+            f"mass_case: found '{name}', but there is none to choose: expected "
+            "mass_cases in the case, or MASSSET in the deck"
+        )
     raise InputError(
-        f"mass_case: found '{name}', expected one of {listed}{nearest(name, names)}"
+        f"mass_case: found '{name}', expected one of {', '.join(names)}"
+        f"{nearest(name, names)}"
     )

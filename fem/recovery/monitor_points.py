@@ -14,7 +14,6 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-import pandas as pd
 import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
@@ -214,22 +213,3 @@ def _resultant(
     return sp.csr_matrix(
         (values.ravel(), (row.ravel(), column.ravel())), shape=(6, points.size)
     )
-
-
-def monitor_table(found: MonitorPoints) -> pd.DataFrame:
-    """One row a point: card, name, label, place, frame, axes, number of grids."""
-    rows = [
-        {
-            "card": p.card,
-            "name": p.name,
-            "label": p.label,
-            "point_x": p.point[0],
-            "point_y": p.point[1],
-            "point_z": p.point[2],
-            "frame": p.frame,
-            "axes": "".join(str(a + 1) for a in p.axes),
-            "grids": len(p.grids),
-        }
-        for p in found.points
-    ]
-    return pd.DataFrame(rows)

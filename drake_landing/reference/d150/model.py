@@ -82,7 +82,6 @@ class ModelBuilder:
     structure: dict[str, list[tuple[float, Float64]]] = field(default_factory=dict)
     dependent: set[tuple[int, int]] = field(default_factory=set)
     _next: dict[str, int] = field(default_factory=dict)
-    _at: dict[tuple[int, int, int], int] = field(default_factory=dict)
     _properties: dict[str, int] = field(default_factory=dict)
     _per_area: dict[int, float] = field(default_factory=dict)
     _per_length: dict[int, float] = field(default_factory=dict)
@@ -113,17 +112,8 @@ class ModelBuilder:
             if i in self.position:
                 raise ValueError(f"grid {i} of {part} exists already")
             self.position[i] = x
-            self._at[_key(x)] = i
             self.parts.setdefault(part, []).append(i)
             section.add("GRID", i, None, *map(_grid_value, x), wide=True)
-
-    def grid_at(self, p: Float64) -> int:
-        """The last written grid at a position (to 0.1 mm).
-
-        Raises:
-            KeyError: there is none.
-        """
-        return self._at[_key(p)]
 
     def element(self, part: str, card: str, *values: Value) -> int:
         """Writes an element; its id is put in front of the values, and returned."""
@@ -394,8 +384,3 @@ def shell_area_centre(p: Float64) -> tuple[float, Float64]:
     if len(p) == 3:
         return float(np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0])) / 2), p.mean(0)
     return float(np.linalg.norm(np.cross(p[2] - p[0], p[3] - p[1])) / 2), p.mean(0)
-
-
-def _key(p: Float64) -> tuple[int, int, int]:
-    x, y, z = np.round(p * 1e4).astype(int)
-    return int(x), int(y), int(z)

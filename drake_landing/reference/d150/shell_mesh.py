@@ -45,10 +45,6 @@ class BoxMesh:
         """Ids of a spar's grids (chordwise 0 front, -1 rear) between stations."""
         return sorted({int(i) for i in self.ids[first : last + 1, chordwise].ravel()})
 
-    def nearest_station(self, span: float) -> int:
-        """Station whose middle is nearest to a span coordinate."""
-        return int(np.argmin(np.abs(self.stations.span - span)))
-
 
 def box_points(
     shape: LiftingSurface, stations: Stations, chordwise: int, high: int

@@ -56,6 +56,43 @@ def solve(tmp_path):
     return go
 
 
+TURNED = np.linalg.qr(np.array([[2.0, 1, 0], [-1, 1, 3], [1, -2, 1]]))[0]
+
+
+@pytest.mark.parametrize(
+    ("length", "force", "turn"),
+    [
+        (1e3, 1.0, np.eye(3)),  # mm, N
+        (39.3700787402, 0.224808943100, np.eye(3)),  # in, lbf
+        (1.0, 1.0, TURNED),
+    ],
+)
+def test_factors_know_no_units_and_no_frame(solve, length, force, turn):
+    """The column in other units and directions, its grids in a cylindrical frame."""
+    y = turn[1] * length
+    grids = []
+    for k in range(11):
+        a, b, c = 0.1 * k * turn[0] * length
+        angle = np.degrees(np.arctan2(b, a))
+        grids.append(f"GRID,{k + 1},5,{np.hypot(a, b):.9e},{angle:.9e},{c:.9e},5")
+    bars = [f"CBAR,{k},1,{k},{k + 1},20" for k in range(1, 11)]
+    side = ",".join(f"{v:.9e}" for v in 3.0 * y)  # G0, in the plane of bending
+    push = ",".join(f"{v:.9e}" for v in -turn[0] * force)
+    bulk = "\n".join(
+        [
+            *("CORD2C,5,,0.,0.,0.,0.,0.,1.", ",1.,0.,0."),
+            *(*grids, f"GRID,20,,{side},,123456", *bars),
+            f"PBAR,1,1,{0.01 * length**2:.9e},{2e-6 * length**4:.9e},"
+            f"{3e-6 * length**4:.9e},{4e-6 * length**4:.9e}",
+            f"MAT1,1,{YOUNG * force / length**2:.9e},,.3",
+            f"SPC1,1,123456,1\nFORCE,7,11,,1.,{push}\n",
+        ]
+    )
+    found, *_ = solve(CASE, "EIGRL,1,,,2", bulk)
+    expected = [EULER, 1.5 * EULER]
+    assert found["buckling/2/factor"] == pytest.approx(expected, rel=1e-4)
+
+
 def test_analysis_tells_statics_from_buckling_where_method_stands_above(solve):
     case = (
         "SPC = 1\nMETHOD = 1\nSUBCASE 1\nANALYSIS = STATICS\nLOAD = 7\n"
