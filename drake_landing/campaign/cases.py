@@ -116,9 +116,10 @@ def _set(data: Data, path: str, value: Value, scaled: bool) -> list[str]:
             inner = [holder.setdefault(step, {}) for holder in holders]
         if not inner:
             known = [str(n) for holder in holders for n in _names(holder)]
+            few = f", expected one of {', '.join(known)}" if 0 < len(known) < 9 else ""
             return [
                 f"axes.{path}: nothing is called '{'.'.join(steps[: i + 1])}' in the "
-                f"base case{nearest(step, known)}"
+                f"base case{few or nearest(step, known)}"
             ]
         holders = inner
     last = steps[-1]

@@ -238,10 +238,22 @@ def _figures(result: CampaignResult, tables: Tables) -> list[tuple[str, str, str
             (
                 f"worst element, {row.component}",
                 f"{row.equivalent / 1e6:.1f} MPa",
-                f"{margin}; {row.card} {row['id']}, case {row['case']}",
+                f"{margin}; {row.card} {row['id']}, case {row['case']}"
+                f"{_condition(result, int(row['case']))}",
             )
         )
     return rows
+
+
+def _condition(result: CampaignResult, case: int) -> str:
+    """What tells a case from the others, in brackets."""
+    values = result.design.loc[case]
+    said = [
+        f"{path.rpartition('.')[2].replace('_', ' ')} "
+        f"{f'{value:.4g}' if isinstance(value, float) else value}"
+        for path, value in values.items()
+    ]
+    return f" ({', '.join(said)})" if said else ""
 
 
 def _stress_text(tables: Tables) -> str:

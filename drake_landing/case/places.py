@@ -13,7 +13,7 @@ import yaml
 
 from fem.errors import InputError
 
-_PATH = re.compile(r"([a-z][\w-]*(?:\.[\w$-]+)*): ")
+_PATH = re.compile(r"([a-z][\w-]*(?:\.[\w$*?-]+)*): ")
 
 
 @dataclass(frozen=True)
