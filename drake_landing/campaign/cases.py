@@ -119,7 +119,7 @@ def _set(data: Data, path: str, value: Value, scaled: bool) -> list[str]:
             few = f", expected one of {', '.join(known)}" if 0 < len(known) < 9 else ""
             return [
                 f"axes.{path}: nothing is called '{'.'.join(steps[: i + 1])}' in the "
-                f"base case{few or nearest(step, known)}"
+                f"base case{nearest(step, known) or few}"
             ]
         holders = inner
     last = steps[-1]
