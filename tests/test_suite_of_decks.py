@@ -1,5 +1,6 @@
 """The suite of decks tells right, wrong and refused apart."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -7,7 +8,7 @@ import pytest
 import fem
 from benchmarks.suite.__main__ import summary
 from benchmarks.suite.compare import differences
-from benchmarks.suite.decks import judge, pairs
+from benchmarks.suite.decks import judge, decks
 from benchmarks.suite.tables import read_f06, read_op2
 from fem.files.op2 import write_op2
 from fem.model.structure import Structure
@@ -38,7 +39,7 @@ def folder(tmp_path: Path) -> Path:
     for name, text in (
         ("a_same.bdf", DECK),
         ("b_softer.bdf", DECK.replace("7.+10", "5.+10")),
-        ("c_refused.bdf", DECK.replace("SOL 103", "SOL 145")),
+        ("c_refused.bdf", DECK.replace("GRID,1", "CHACAB,1,1")),
     ):
         (tmp_path / name).write_text(text)
     deck = fem.read_deck(tmp_path / "a_same.bdf")
@@ -48,16 +49,20 @@ def folder(tmp_path: Path) -> Path:
     for name in ("b_softer.op2", "c_refused.op2"):
         (tmp_path / name).write_bytes(op2.read_bytes())
     (tmp_path / "d_alone.bdf").write_text(DECK)
+    (tmp_path / "e_other.bdf").write_text(DECK.replace("SOL 103", "SOL 145"))
     return tmp_path
 
 
 def test_decks_are_judged_by_the_files_beside_them(folder):
-    found = [judge(deck, file, folder, 60.0) for deck, file in pairs(folder)]
-    assert [outcome.verdict for outcome in found] == ["right", "wrong", "refused"]
+    found = [judge(deck, files, folder, 60.0) for deck, files in decks(folder)]
+    verdicts = [outcome.verdict for outcome in found]
+    assert verdicts == ["right", "wrong", "refused", "ran", "refused"]
+    assert [outcome.declared for outcome in found] == [True] * 4 + [False]
     assert found[1].beyond["frequency"] == pytest.approx(1 - (5 / 7) ** 0.5, rel=1e-5)
     text = summary(found)
-    assert "right 1, wrong 1" in text
-    assert "1 x refused (1 by this alone): SOL N is not supported" in text
+    assert "SOL 103: right 1, wrong 1, nothing in common 0, ran 1, refused 1" in text
+    assert "other solutions: 1, crashed 0; 145 (1)" in text
+    assert "1 x refused (0 by this alone): CHACAB (N card;" in text
 
 
 def test_frequencies_of_a_listing_are_read(folder):
@@ -75,3 +80,28 @@ def test_frequencies_of_a_listing_are_read(folder):
     (found,) = differences(read_op2(folder / "a_same.op2"), theirs)
     assert found.name == "frequency"
     assert found.value < 1e-6
+
+
+HARMONIC = (
+    DECK.replace("SOL 103", "SOL 108")
+    .replace("METHOD = 1", "FREQUENCY = 1\nDLOAD = 2\nDISP = ALL\nFORCE = ALL")
+    .replace(
+        "EIGRL,1,,,3",
+        "FREQ,1,1.,2.\nRLOAD1,2,3,,,4\nDAREA,3,3,1,10.\nTABLED1,4\n"
+        ",0.,1.,100.,1.,ENDT\nPARAM,G,.1",
+    )
+)
+
+
+def test_complex_forces_are_compared(tmp_path):
+    (tmp_path / "a.bdf").write_text(HARMONIC)
+    deck = fem.read_deck(tmp_path / "a.bdf")
+    results = run_deck(deck, tmp_path / "out" / "a.h5")
+    assert write_op2(results, Structure(deck), tmp_path / "a.op2") == []
+    ours = read_op2(tmp_path / "a.op2")
+    axial = ours["force of CBAR", 1].values[:, :, 6]
+    # Far below the first mode: K u with K (1 + ig) u = 10 N.
+    assert axial[0, 1] == pytest.approx(10.0 / (1.0 + 0.1j), rel=1e-5)
+    theirs = {k: replace(v, values=1.1j * v.values) for k, v in ours.items()}
+    found = {d.name: d.value for d in differences(ours, theirs)}
+    assert found["force of CBAR"] == pytest.approx(abs(1 - 1.1j) / 1.1, rel=1e-6)

@@ -7,7 +7,7 @@ from collections import Counter
 from dataclasses import asdict
 from pathlib import Path
 
-from benchmarks.suite.decks import VERDICTS, Outcome, judge, pairs
+from benchmarks.suite.decks import VERDICTS, Outcome, decks, judge
 
 
 def main() -> None:
@@ -17,15 +17,19 @@ def main() -> None:
     parser.add_argument("--only", default="", help="part of the deck's path")
     parser.add_argument("--seconds", type=float, default=60.0, help="for one deck")
     parser.add_argument("--json", type=Path, help="file for all outcomes")
+    parser.add_argument(
+        "--all", action="store_true", help="decks without results beside them, too"
+    )
     asked = parser.parse_args()
     outcomes = []
-    for deck, reference in pairs(asked.folder):
-        if asked.only not in str(deck):
+    for deck, references in decks(asked.folder):
+        if asked.only not in str(deck) or not (references or asked.all):
             continue
-        outcome = judge(deck, reference, asked.folder, asked.seconds)
+        outcome = judge(deck, references, asked.folder, asked.seconds)
         outcomes.append(outcome)
         why = "; ".join(outcome.why[:4])
-        print(f"{outcome.verdict:18s}{outcome.deck}: {why}"[:400], flush=True)
+        verdict = outcome.verdict if outcome.declared else "other solution"
+        print(f"{verdict:18s}{outcome.deck}: {why}"[:400], flush=True)
     print(summary(outcomes))
     if asked.json:
         asked.json.write_text(json.dumps([asdict(o) for o in outcomes], indent=1))
@@ -33,11 +37,10 @@ def main() -> None:
 
 def summary(outcomes: list[Outcome]) -> str:
     """Counts, tables that differ, and reasons of refusals, most frequent first."""
-    count = Counter(outcome.verdict for outcome in outcomes)
-    lines = ["", ", ".join(f"{name} {count[name]}" for name in VERDICTS), ""]
+    lines = ["", *_by_solution(outcomes), ""]
     differing = Counter(name for o in outcomes for name in o.beyond)
     lines += [f"{n:4d} x differs: {name}" for name, n in differing.most_common()]
-    refused = [o for o in outcomes if o.verdict == "refused"]
+    refused = [o for o in outcomes if o.verdict == "refused" and o.declared]
     reasons = Counter(kind for o in refused for kind in kinds(o.why))
     alone = Counter(k for o in refused for k in kinds(o.why) if len(kinds(o.why)) == 1)
     lines += [
@@ -45,6 +48,27 @@ def summary(outcomes: list[Outcome]) -> str:
         for kind, n in reasons.most_common(40)
     ]
     return "\n".join(lines)
+
+
+def _by_solution(outcomes: list[Outcome]) -> list[str]:
+    """Verdicts of the decks in the solutions here; the others are counted apart."""
+    declared = [o for o in outcomes if o.declared]
+    lines = [_counts("all", declared)]
+    for number in sorted({o.solution for o in declared}):
+        own = [o for o in declared if o.solution == number]
+        lines.append(_counts(f"SOL {number}" if number else "SOL unknown", own))
+    others = Counter(o.solution for o in outcomes if not o.declared)
+    said = ", ".join(f"{number} ({n})" for number, n in sorted(others.items()))
+    crashed = sum(o.verdict == "crashed" for o in outcomes if not o.declared)
+    lines.append(f"other solutions: {sum(others.values())}, crashed {crashed}; {said}")
+    return lines
+
+
+def _counts(name: str, outcomes: list[Outcome]) -> str:
+    count = Counter(outcome.verdict for outcome in outcomes)
+    return f"{name}: " + ", ".join(
+        f"{verdict} {count[verdict]}" for verdict in VERDICTS
+    )
 
 
 def kinds(problems: list[str]) -> set[str]:

@@ -21,6 +21,7 @@ class Difference:
     rows: int
 
 
+ROOTS = ("frequency", "load factor")
 # Frequencies below are those of rigid motions, rounding in both, Hz.
 _AT_REST = 1e-5
 # A kind's scale is at least this share of what the other kind's peak does over the
@@ -41,11 +42,12 @@ def differences(
     found = []
     for name in sorted(set(ours) & set(theirs)):
         modal = ("frequency", name[1]) in theirs
-        if modal and name[0] != "frequency":
+        real = not np.iscomplexobj(theirs[name].values)
+        if modal and real and name[0] not in ROOTS:
             continue  # shapes have any sign, and turn within clusters
         pair = _common(ours[name], theirs[name])
         if pair is not None and name[1] in cases:
-            if name[0] == "frequency":
+            if name[0] in ROOTS:
                 value = _frequency(*pair)
             else:
                 value = _worst(*pair, _arm(name[0], length))
@@ -62,8 +64,9 @@ def _common(ours: Table, theirs: Table) -> tuple[np.ndarray, np.ndarray] | None:
         for k, c in enumerate(theirs.columns)
         if c in ours.columns and not any(word in c for word in _UNEVEN)
     ]
-    states = len(ours.values), len(theirs.values)
-    if not rows or not columns or states[0] != states[1]:
+    same = len(ours.values) == len(theirs.values)
+    alike = np.iscomplexobj(ours.values) == np.iscomplexobj(theirs.values)
+    if not rows or not columns or not same or not alike:
         return None
     (own, other), (mine, its) = np.transpose(rows), np.transpose(columns)
     return ours.values[:, own][..., mine], theirs.values[:, other][..., its]

@@ -3,7 +3,8 @@
 import multiprocessing
 import re
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from queue import Empty
@@ -12,18 +13,29 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from benchmarks.suite.compare import differences
+from benchmarks.suite.hdf5_tables import read_nastran_hdf5
 from benchmarks.suite.tables import Name, Table, read_f06, read_op2
 from fem.deck.reader import read_deck
+from fem.deck.source import include_reach
 from fem.errors import InputError
 from fem.files.op2 import write_op2
 from fem.model.structure import Structure
-from fem.solution import run_deck, solution_problems
+from fem.solution import declared_solution, run_deck, solution_problems
 
-_DECK = re.compile(r"\.(bdf|dat|nas)$", re.IGNORECASE)
+_DECK = re.compile(r"\.(bdf|dat|nas|inp)$", re.IGNORECASE)
+_RESULTS = (".op2", ".h5", ".f06")
 # Difference that counts as right: of what is solved for, and of what follows from it.
 SOLVED, DERIVED = 0.01, 0.05
-_SOLVED = ("displacement", "frequency", "SPC force", "MPC force")
-VERDICTS = ("right", "wrong", "nothing in common", "refused", "slow", "crashed")
+_SOLVED = ("displacement", "frequency", "load factor", "SPC force", "MPC force")
+VERDICTS = (
+    "right",
+    "wrong",
+    "nothing in common",
+    "ran",
+    "refused",
+    "slow",
+    "crashed",
+)
 
 
 @dataclass
@@ -32,40 +44,59 @@ class Outcome:
 
     Attributes:
         deck: its path below the folder.
-        verdict: of VERDICTS.
+        verdict: of VERDICTS; "ran": there is no result file beside it.
         why: reasons, or the worst differences.
         beyond: tables whose difference is too large, by name.
+        solution: of its SOL statement, 0 where it cannot be read.
+        declared: whether that, or an ANALYSIS, is one of the solutions here.
     """
 
     deck: str
     verdict: str
     why: list[str] = field(default_factory=list)
     beyond: dict[str, float] = field(default_factory=dict)
+    solution: int = 0
+    declared: bool = True
 
 
-def pairs(folder: Path) -> Iterator[tuple[Path, Path]]:
-    """Decks with a SOL statement, each with the result file beside it (OP2 first)."""
+def decks(folder: Path) -> Iterator[tuple[Path, list[Path]]]:
+    """Decks with a SOL statement, each with the result files beside it (OP2 first)."""
     for deck in sorted(folder.rglob("*")):
         if not _DECK.search(deck.name) or not deck.is_file():
             continue
         near = {
             (p.stem.lower(), p.suffix.lower()): p
             for p in deck.parent.iterdir()
-            if p.suffix.lower() in (".op2", ".f06")
+            if p.suffix.lower() in _RESULTS
         }
-        beside = [near.get((deck.stem.lower(), end)) for end in (".op2", ".f06")]
-        found = next((p for p in beside if p is not None), None)
+        beside = [near.get((deck.stem.lower(), end)) for end in _RESULTS]
         text = deck.read_text(errors="replace")[:20000]
-        if found is not None and re.search(r"^\s*SOL\b", text, re.M | re.I):
-            yield deck, found
+        if re.search(r"^\s*SOL\b", text, re.M | re.I):
+            yield deck, [p for p in beside if p is not None]
 
 
-def judge(deck: Path, reference: Path, folder: Path, seconds: float) -> Outcome:
-    """Run and compare in a process of its own, which may fail or be stopped."""
+def judge(
+    deck: Path, references: Sequence[Path], folder: Path, seconds: float
+) -> Outcome:
+    """Run and compare in a process of its own, which may fail or be stopped.
+
+    INCLUDE reaches all of the folder.
+    """
+    with include_reach([folder]):
+        outcome = _judge(deck, references, folder, seconds)
+        with suppress(InputError):
+            outcome.solution = declared_solution(deck)
+            outcome.declared = not solution_problems(deck)
+    return outcome
+
+
+def _judge(
+    deck: Path, references: Sequence[Path], folder: Path, seconds: float
+) -> Outcome:
     context = multiprocessing.get_context("fork")
     queue = context.Queue()
     name = str(deck.relative_to(folder))
-    process = context.Process(target=_into, args=(queue, deck, reference, name))
+    process = context.Process(target=_into, args=(queue, deck, references, folder))
     process.start()
     try:
         outcome = queue.get(timeout=seconds)
@@ -77,27 +108,31 @@ def judge(deck: Path, reference: Path, folder: Path, seconds: float) -> Outcome:
     return outcome
 
 
-def _into(queue: multiprocessing.Queue, deck: Path, reference: Path, name: str) -> None:
+def _into(
+    queue: multiprocessing.Queue, deck: Path, references: Sequence[Path], folder: Path
+) -> None:
+    name = str(deck.relative_to(folder))
     try:
-        queue.put(_outcome(deck, reference, name))
+        queue.put(_outcome(deck, references, name))
     except InputError as error:
         queue.put(Outcome(name, "refused", [line for line in error.problems]))
     except BaseException:
         queue.put(Outcome(name, "crashed", traceback.format_exc().splitlines()[-3:]))
 
 
-def _outcome(deck: Path, reference: Path, name: str) -> Outcome:
+def _outcome(deck: Path, references: Sequence[Path], name: str) -> Outcome:
     problems = solution_problems(deck)
     if problems:
         raise InputError(problems)
     ours, length = _ours(deck)
-    try:
-        theirs = read_op2(reference) if reference.suffix.lower() == ".op2" else {}
-    except ValueError:
-        theirs = {}
-    listing = next(reference.parent.glob(f"{reference.stem}.[fF]06"), None)
-    if listing is not None and not _shared(ours, theirs):
-        theirs = read_f06(listing)
+    if not references:
+        return Outcome(name, "ran")
+    theirs: dict[Name, Table] = {}
+    for reference in references:
+        with suppress(ValueError):
+            theirs = _read(reference, buckling=declared_solution(deck) in _BUCKLING)
+        if differences(ours, theirs):
+            break
     found = differences(ours, theirs, length)
     if not found:
         return Outcome(name, "nothing in common")
@@ -110,8 +145,15 @@ def _outcome(deck: Path, reference: Path, name: str) -> Outcome:
     return Outcome(name, "wrong" if beyond else "right", why, beyond)
 
 
-def _shared(ours: dict[Name, Table], theirs: dict[Name, Table]) -> bool:
-    return bool(differences(ours, theirs))
+_BUCKLING = (105,)
+
+
+def _read(path: Path, *, buckling: bool) -> dict[Name, Table]:
+    if path.suffix.lower() == ".op2":
+        return read_op2(path)
+    if path.suffix.lower() == ".h5":
+        return read_nastran_hdf5(path)
+    return read_f06(path, buckling=buckling)
 
 
 def _ours(deck: Path) -> tuple[dict[Name, Table], float]:

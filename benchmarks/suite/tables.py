@@ -22,6 +22,7 @@ POINTS = {
     "accelerations": "acceleration",
 }
 _ELEMENTS = ("force", "stress", "strain")
+_MODES, _BUCKLING, _COMPLEX = 2, 8, 9  # analysis codes
 Name = tuple[str, int]
 
 
@@ -41,7 +42,10 @@ class Table:
 
 
 def read_op2(path: Path) -> dict[Name, Table]:
-    """Tables of an OP2 file by name and subcase; (1, m, 1) frequencies in Hz.
+    """Tables of an OP2 file by name and subcase.
+
+    Frequencies (Hz) and load factors are (1, m, 1); load factors go by their order
+    instead of their subcase. What belongs to modes is left out: shapes have any sign.
 
     Raises:
         ValueError: pyNastran cannot read it.
@@ -61,19 +65,27 @@ def read_op2(path: Path) -> dict[Name, Table]:
     for title, tables in _tables(model):
         for key, table in tables.items():
             subcase = key[0] if isinstance(key, tuple) else key
-            made = _table(table)
+            modal = getattr(table, "analysis_code", 1) in (_MODES, _BUCKLING, _COMPLEX)
+            made = None if modal else _table(table)
             if made is not None:
                 found.setdefault((title, int(subcase)), made)
+    buckling = 0
     for key, table in model.eigenvectors.items():
         subcase = key[0] if isinstance(key, tuple) else key
+        if getattr(table, "analysis_code", 0) == _BUCKLING:
+            buckling += 1
+            factor = np.asarray(table.eigrs, float)
+            found.setdefault(("load factor", buckling), listed(factor))
+            continue
         # Some files hold the circular frequency where cycles belong.
         square = np.asarray(getattr(table, "eigns", []), float)
         hertz = np.sign(square) * np.sqrt(np.abs(square)) / (2.0 * np.pi)
-        found.setdefault(("frequency", int(subcase)), _listed(hertz))
+        found.setdefault(("frequency", int(subcase)), listed(hertz))
     return found
 
 
-def _listed(values: np.ndarray) -> Table:
+def listed(values: np.ndarray) -> Table:
+    """(m,) frequencies or load factors."""
     owner = [(k,) for k in range(len(values))]
     return Table(owner, values.reshape(1, -1, 1), ("Hz",))
 
@@ -92,9 +104,9 @@ def _card(name: str, kind: str) -> str:
 
 
 def _table(table: Any) -> Table | None:
-    """A table of real numbers; None: what it is is not compared."""
+    """A table of numbers, real or complex; None: what it is is not compared."""
     data = getattr(table, "data", None)
-    if data is None or data.ndim != 3 or np.iscomplexobj(data):
+    if data is None or data.ndim != 3:
         return None
     for name in ("element_node", "element_layer", "node_gridtype", "element"):
         owner = getattr(table, name, None)
@@ -117,7 +129,8 @@ def _table(table: Any) -> Table | None:
         key = tuple(row)
         seen[key] = seen.get(key, 0) + 1
         keys.append((*key, seen[key]))  # the fibres of one place follow each other
-    return Table(keys, data.astype(float), tuple(table.get_headers()))
+    number = complex if np.iscomplexobj(data) else float
+    return Table(keys, data.astype(number), tuple(table.get_headers()))
 
 
 _VECTOR = re.compile(r"^0?\s*(\d+)\s+[GS]\s+(.*)$")
@@ -129,16 +142,28 @@ _TITLES = {
 _SIX = ("t1", "t2", "t3", "r1", "r2", "r3")
 
 
-def read_f06(path: Path) -> dict[Name, Table]:
-    """Displacements, forces of constraint and frequencies of an F06 file."""
+def read_f06(path: Path, *, buckling: bool = False) -> dict[Name, Table]:
+    """Displacements, forces of constraint and frequencies of an F06 file.
+
+    Args:
+        path: the file.
+        buckling: eigenvalues are load factors.
+    """
     rows: dict[Name, dict[int, list[float]]] = {}
-    hertz: dict[int, dict[int, float]] = {}
-    title, subcase = "", 1
+    roots: dict[int, dict[int, float]] = {}
+    title, subcase, part = "", 1, 0
+    column = 2 if buckling else 4
     for line in path.read_text(errors="replace").splitlines():
         packed = line[1:].replace(" ", "")
+        if line.startswith("1"):
+            part = 0
+        if match := re.search(r"SUPERELEMENT\s+(\d+)", line):
+            part = int(match[1])
         if match := re.search(r"SUBCASE\s+(\d+)\s*$", line):
             subcase = int(match[1])
-        if packed.startswith("REALEIGENVALUES"):
+        if part:
+            title = ""
+        elif packed.startswith("REALEIGENVALUES"):
             title = "frequency"
         elif any(packed.startswith(name) for name in _TITLES):
             title = next(v for k, v in _TITLES.items() if packed.startswith(k))
@@ -147,7 +172,7 @@ def read_f06(path: Path) -> dict[Name, Table]:
         elif title == "frequency":
             words = line.split()
             if len(words) == 7 and words[0].isdigit():
-                hertz.setdefault(subcase, {})[int(words[0])] = _number(words[4])
+                roots.setdefault(subcase, {})[int(words[0])] = _number(words[column])
         elif title and (match := _VECTOR.match(line)):
             own = rows.setdefault((title, subcase), {})
             values = [_number(word) for word in match[2].split()]
@@ -158,8 +183,9 @@ def read_f06(path: Path) -> dict[Name, Table]:
         )
         for name, own in rows.items()
     }
-    for case, own in hertz.items():
-        found["frequency", case] = _listed(np.array([own[k] for k in sorted(own)]))
+    for k, (case, own) in enumerate(roots.items(), start=1):
+        name = ("load factor", k) if buckling else ("frequency", case)
+        found[name] = listed(np.array([own[k] for k in sorted(own)]))
     return found
 
 

@@ -31,6 +31,25 @@ SOLUTIONS: dict[str, int] = {
     "DESOPT": 200,
 }
 
+# Numbers of old rigid formats and their superelement variants (from memory of MSC's
+# and COSMIC's guides) and words of other dialects.
+OLDER: dict[str, int] = {
+    "STATIC": 101,
+    "LINSTATIC": 101,
+    "LINEARSTATIC": 101,
+    "MODAL": 103,
+    "BUCKLING": 105,
+    "NONLINEAR": 106,
+    "NLSTATICS": 106,
+    **{"1": 101, "24": 101, "47": 101, "61": 101},
+    **{"3": 103, "25": 103, "48": 103, "63": 103},
+    **{"5": 105, "65": 105},
+    **{"8": 108, "26": 108, "68": 108},
+    **{"9": 109, "27": 109, "69": 109},
+    **{"11": 111, "30": 111, "71": 111},
+    **{"12": 112, "31": 112, "72": 112},
+}
+
 _DMAP = frozenset({"ALTER", "COMPILE", "ENDALTER", "MALTER", "LINK", "SUBDMAP"})
 
 
@@ -61,7 +80,11 @@ def read_executive(lines: Iterable[Line]) -> Executive:
         if match is None or result.sol:
             continue
         name = match.group(1).upper()
-        if name.isdigit() and len(name) < 6:
+        older = OLDER.get(name.lstrip("0"))
+        if older is not None:
+            result.sol = older
+            result.notices.append(f"SOL {name} is carried out as SOL {older}")
+        elif name.isdigit() and len(name) < 6:
             result.sol = int(name)
         elif name in SOLUTIONS:
             result.sol = SOLUTIONS[name]

@@ -21,6 +21,7 @@ from fem.files.atomic import written_aside
 from fem.files.op2_elements import (
     Elements,
     Layout,
+    complex_layout,
     layout_of,
     plies_of,
     ply_words,
@@ -176,9 +177,6 @@ def _element_series(
 ) -> tuple[list[_Series], list[str]]:
     """Series of element results, and what has no place in the file."""
     series: list[_Series] = []
-    if solution.analysis == "frequency":
-        found = solution.elements("element_force")
-        return [], [f"complex element_force of {card}" for card in found]
     left = [
         f"element_failure of {card}" for card in solution.elements("element_failure")
     ]
@@ -198,6 +196,9 @@ def _element_series(
             if layout is None:
                 left.append(f"{name} of {card}")
                 continue
+            parts = 2 if np.issubdtype(result.dataset.dtype, np.complexfloating) else 1
+            if parts == 2:
+                layout = complex_layout(layout)
 
             def words_of(
                 k: int, result: ElementResult = result, layout=layout
@@ -211,6 +212,7 @@ def _element_series(
                 element=layout.type,
                 width=layout.width,
                 stress=stress,
+                parts=parts,
             )
             series.append(_Series(kind, words_of))
     return series, left

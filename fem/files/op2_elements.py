@@ -7,6 +7,7 @@ numbers are integers among the reals. What Nastran fills with margins of safety 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +19,7 @@ from fem.files.op2_records import DEVICE
 Float32 = npt.NDArray[np.float32]
 Cell = str | float | Int64
 
+_NOTHING = ""  # column of a place without results: zero
 NO_MARGIN = float(np.array([1], "<i4").view("<f4")[0])
 
 
@@ -67,18 +69,37 @@ class Layout:
 
 
 def words(layout: Layout, columns: Sequence[str], values: Float64) -> Float32:
-    """(e, w) words of results (e, c)."""
+    """(e, w) words of results (e, c), real, or real and imaginary parts one by one."""
     at = {name: k for k, name in enumerate(columns)}
+    if np.iscomplexobj(values):
+        at |= {_imaginary(name): len(at) + k for name, k in at.items()}
+        values = np.concatenate([values.real, values.imag], axis=1)
     out = np.zeros((len(values), layout.width), "<f4")
     integers = out.view("<i4")
     for k, cell in enumerate(layout.cells):
         if isinstance(cell, str):
-            out[:, k] = values[:, at[cell]]
+            if cell != _NOTHING:
+                out[:, k] = values[:, at[cell]]
         elif isinstance(cell, float):
             out[:, k] = cell
         else:
             integers[:, k] = cell
     return out
+
+
+def complex_layout(layout: Layout) -> Layout:
+    """The same with imaginary parts: of each run of columns, after its real parts."""
+    cells: list[Cell] = []
+    for is_value, run in groupby(layout.cells, key=lambda cell: isinstance(cell, str)):
+        own = list(run)
+        cells += own
+        if is_value:
+            cells += [_imaginary(str(name)) for name in own]
+    return Layout(type=layout.type, cells=cells)
+
+
+def _imaginary(column: str) -> str:
+    return f"{column} imaginary" if column != _NOTHING else _NOTHING
 
 
 def _device(elements: Elements) -> Int64:
@@ -110,7 +131,7 @@ def _beam(op2: Op2, e: Elements) -> Layout:
     """Eleven stations, of which the ends have results; stresses with two margins."""
     half = len(e.columns) // 2
     margins = 2 if "smax_a" in e.columns else 0
-    empty: list[Cell] = [np.zeros(1, np.int64), *[0.0] * (1 + half + margins)]
+    empty: list[Cell] = [np.zeros(1, np.int64), 0.0, *[_NOTHING] * (half + margins)]
     ends: list[list[Cell]] = []
     for k, place in enumerate((0.0, 1.0)):
         own = e.columns[k * half : (k + 1) * half]

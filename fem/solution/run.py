@@ -89,6 +89,16 @@ def _run(deck: Deck, path: Path, options: Options) -> Path:
     return path
 
 
+def declared_solution(path: Path) -> int:
+    """Number of the SOL statement of a deck, 0 where it has none that is known.
+
+    Raises:
+        InputError: the deck cannot be read that far.
+    """
+    sections = split_sections(read_source(path).lines, str(path))
+    return read_executive(sections.executive).sol
+
+
 def solution_problems(path: Path) -> list[str]:
     """That no solution here is what a deck asks for, from its first sections alone.
 
