@@ -8,7 +8,7 @@ import pytest
 import fem
 from benchmarks.suite.__main__ import summary
 from benchmarks.suite.compare import differences
-from benchmarks.suite.decks import judge, decks
+from benchmarks.suite.decks import decks, judge
 from benchmarks.suite.tables import read_f06, read_op2
 from fem.files.op2 import write_op2
 from fem.model.structure import Structure
