@@ -17,17 +17,12 @@ from drake_landing.conditions.ground import (
     GroundAircraft,
     load,
 )
-from drake_landing.conditions.handling25 import (
-    POUND_FORCE,
-    at_rest,
-    braked_drag,
-    braked_reactions,
-    pivoting,
-    towing,
-)
 from drake_landing.conditions.landing25 import SIDES
 from drake_landing.conditions.paragraph import largest
-from drake_landing.conditions.statics import reactions
+from drake_landing.conditions.rolling25 import braked_drag, braked_reactions
+from drake_landing.conditions.statics import at_rest, reactions, resting
+from drake_landing.conditions.towing25 import POUND_FORCE, towing
+from drake_landing.conditions.turning25 import pivoting
 
 FOOT = 0.3048
 LIFT = 2.0 / 3.0
@@ -348,12 +343,5 @@ def _shared(aircraft: GroundAircraft, total: float) -> dict[Gear, float]:
     return {g: total * rest[g.name] / whole for g in aircraft.mains}
 
 
-def _all_at_rest(aircraft: GroundAircraft) -> list[tuple[Gear, float]]:
-    rest = at_rest(aircraft)
-    return [(g, rest[g.name]) for g in aircraft.gears]
-
-
 def _others_at_rest(aircraft: GroundAircraft, one: Gear) -> list[GearLoad]:
-    return [
-        load(g, "ground", vertical=z) for g, z in _all_at_rest(aircraft) if g is not one
-    ]
+    return [load(g, "ground", vertical=z) for g, z in resting(aircraft) if g is not one]

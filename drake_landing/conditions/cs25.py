@@ -1,6 +1,6 @@
 """CS-25 (14 CFR 25) ground loads, 25.471 to 25.519: every paragraph."""
 
-from drake_landing.conditions import handling25 as handling
+from drake_landing.conditions import flat_tires25, rolling25, towing25, turning25
 from drake_landing.conditions import landing25 as landing
 from drake_landing.conditions.paragraph import (
     Paragraph,
@@ -127,7 +127,7 @@ CS25: tuple[Paragraph, ...] = (
         does="presets over profiles with one or two tracks; the discrete load as a "
         "static case",
         mark="secondary",
-        cases=handling.taxi,
+        cases=rolling25.taxi,
         presets=("taxi_bump",),
     ),
     Paragraph(
@@ -137,7 +137,7 @@ CS25: tuple[Paragraph, ...] = (
         "vertical load at braked wheels, less where the brakes give less; (1) all "
         "gears, no pitching acceleration, (2) main gears, pitching by inertia",
         does="static cases (1) and (2)",
-        cases=handling.braked_roll,
+        cases=rolling25.braked_roll,
         needs=(needs_mains, needs_brakes),
     ),
     Paragraph(
@@ -147,7 +147,7 @@ CS25: tuple[Paragraph, ...] = (
         "or by the formula, f = 2 or by the pitch damping",
         does="static case by the formula; rational: preset braked_roll",
         mark="memory",
-        cases=handling.sudden_braking,
+        cases=rolling25.sudden_braking,
         presets=("braked_roll",),
         needs=(needs_nose, needs_brakes),
         design=("take_off",),
@@ -157,7 +157,7 @@ CS25: tuple[Paragraph, ...] = (
         title="turning",
         rule="n_z 1.0, n_y 0.5; side load of every wheel 0.5 of its vertical load",
         does="static cases to both sides; vertical loads from equilibrium in roll",
-        cases=handling.turning,
+        cases=turning25.turning,
         needs=(needs_sides,),
         design=("take_off",),
     ),
@@ -167,7 +167,7 @@ CS25: tuple[Paragraph, ...] = (
         rule="load at rest with as much to the side: swivelled 90° through the axle; "
         "with a lock, steering or damper also trailing, at the ground",
         does="static cases",
-        cases=handling.tail_wheel_yaw,
+        cases=turning25.tail_wheel_yaw,
         needs=(needs_tail,),
         design=("take_off",),
     ),
@@ -178,7 +178,7 @@ CS25: tuple[Paragraph, ...] = (
         "point",
         does="static cases to both sides",
         mark="memory",
-        cases=handling.nose_yaw,
+        cases=turning25.nose_yaw,
         needs=(needs_nose,),
         design=("take_off",),
     ),
@@ -190,7 +190,7 @@ CS25: tuple[Paragraph, ...] = (
         "0.8 of its vertical load, inertia takes the rest",
         does="static cases for both sides",
         mark="memory",
-        cases=handling.one_side_braked,
+        cases=turning25.one_side_braked,
         needs=(needs_nose, needs_brakes, needs_sides),
         design=("take_off",),
     ),
@@ -200,7 +200,7 @@ CS25: tuple[Paragraph, ...] = (
         rule="full normal steering torque with 1.33 times the largest load at rest",
         does="static cases both ways",
         mark="memory",
-        cases=handling.steering,
+        cases=turning25.steering,
         needs=(needs_nose, needs_steering),
         design=("take_off",),
     ),
@@ -211,7 +211,7 @@ CS25: tuple[Paragraph, ...] = (
         "equilibrium of loads at the ground",
         does="static cases: torque 0.8 Z times the wheels' mean distance from their "
         "middle, held by side loads of nose and locked gear",
-        cases=handling.pivoting,
+        cases=turning25.pivoting,
         needs=(needs_brakes, needs_several_wheels),
         design=("take_off",),
     ),
@@ -222,7 +222,7 @@ CS25: tuple[Paragraph, ...] = (
         "or of 1.2 times the largest static brake torque; nose wheel types: pitching "
         "by inertia",
         does="static case",
-        cases=handling.reversed_braking,
+        cases=rolling25.reversed_braking,
         needs=(needs_brakes,),
         design=("take_off",),
     ),
@@ -234,7 +234,7 @@ CS25: tuple[Paragraph, ...] = (
         "reacted at the axle up to its vertical load and by inertia, or by inertia",
         unsure="nose and tail: F, 45°, 0.5 F",
         does="static cases, both reactions; the fitting is taken at the axle",
-        cases=handling.towing,
+        cases=towing25.towing,
         design=("take_off",),
     ),
     Paragraph(
@@ -262,7 +262,7 @@ CS25: tuple[Paragraph, ...] = (
         "less than of each inflated tire before; n 60, 50 %, no less than 1; tow 60, "
         "50 %",
         does="static cases of turning, braked roll, towing",
-        cases=handling.flat_tire_handling,
+        cases=flat_tires25.flat_tire_handling,
         needs=(needs_several_wheels, needs_brakes, needs_sides),
         design=("take_off",),
     ),
@@ -273,7 +273,7 @@ CS25: tuple[Paragraph, ...] = (
         "of it any way; jack pads of the airframe; tie-down in a wind of 65 kt",
         does="static cases of gears; jack pads and tie-down are the user's (the "
         "wind's loads are not known here)",
-        cases=handling.jacking,
+        cases=towing25.jacking,
         design=("take_off",),
     ),
 )

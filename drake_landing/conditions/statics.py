@@ -10,7 +10,13 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from drake_landing.conditions.ground import At, Gear, GearLoad, GearPlace
+from drake_landing.conditions.ground import (
+    At,
+    Gear,
+    GearLoad,
+    GearPlace,
+    GroundAircraft,
+)
 from fem.arrays import Float64
 
 
@@ -56,6 +62,26 @@ def reactions(
     if np.any(np.abs(rows @ found - wanted) > 1e-6 * size):
         raise ValueError("no vertical loads of these gears balance the aircraft")
     return {gear.name: float(z) for gear, z in zip(gears, found)}
+
+
+def at_rest(aircraft: GroundAircraft) -> dict[str, float]:
+    """Vertical loads at rest, N."""
+    return reactions(aircraft.gears, aircraft.poses["static"], aircraft.weight)
+
+
+def resting(
+    aircraft: GroundAircraft, gears: Sequence[Gear] | None = None
+) -> list[tuple[Gear, float]]:
+    """Gears, all by default, with their vertical loads at rest, N."""
+    loads = at_rest(aircraft)
+    return [(g, loads[g.name]) for g in (aircraft.gears if gears is None else gears)]
+
+
+def middle_of_mains(aircraft: GroundAircraft) -> Float64:
+    """(3,) of the main gears' ground points, by their loads at rest, G, m."""
+    loads, places = at_rest(aircraft), aircraft.poses["static"]
+    points = np.array([places[g.name].ground for g in aircraft.mains])
+    return np.average(points, axis=0, weights=[loads[g.name] for g in aircraft.mains])
 
 
 def point(place: GearPlace, at: At) -> Float64:

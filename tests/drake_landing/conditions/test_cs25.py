@@ -5,7 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from drake_landing.conditions import handling25, landing25
+from drake_landing.conditions import (
+    flat_tires25,
+    landing25,
+    rolling25,
+    towing25,
+    turning25,
+)
 from drake_landing.conditions.cs25 import CS25
 from drake_landing.conditions.ground import BookCase
 from drake_landing.conditions.statics import resultant
@@ -77,13 +83,13 @@ def test_487_rebound_is_20_g_of_the_unsprung_parts_as_they_extend():
 
 
 def test_491_discrete_taxi_load_is_1_7_of_rest():
-    (case,) = handling25.taxi(transport())
+    (case,) = rolling25.taxi(transport())
     assert totals(case)["nose"] == approx(0, 0, 1.7 * W / 12)
 
 
 @pytest.mark.parametrize(("design", "n"), [("take_off", 1.0), ("landing", 1.2)])
 def test_493_b_braked_roll(design: str, n: float):
-    every, mains = handling25.braked_roll(transport(design=design))
+    every, mains = rolling25.braked_roll(transport(design=design))
     # V_N = n W (B + µE)/(A + B + µE) = n W 3.4/14.4
     nose = n * W * 3.4 / 14.4
     main = (n * W - nose) / 2
@@ -96,7 +102,7 @@ def test_493_b_braked_roll(design: str, n: float):
 
 
 def test_493_c_drag_is_no_more_than_the_brakes_give():
-    every, mains = handling25.braked_roll(transport(torque=50e3))
+    every, mains = rolling25.braked_roll(transport(torque=50e3))
     # 100 kN each; V_N = (W B + 2 D E)/(A + B)
     nose = (W * 1.0 + 2 * 100e3 * 3.0) / 12.0
     assert totals(every)["nose"] == approx(0, 0, nose)
@@ -105,20 +111,20 @@ def test_493_c_drag_is_no_more_than_the_brakes_give():
 
 
 def test_493_e_formula_and_its_statics_at_f_of_one():
-    (case,) = handling25.sudden_braking(transport())
+    (case,) = rolling25.sudden_braking(transport())
     # W/12 (1 + 2·0.8·11·3/14.4) = 49 033·4.6667
     assert totals(case)["nose"] == approx(0, 0, 228.822e3)
     assert sum(f[2] for f in totals(case).values()) == pytest.approx(W)
-    damped = handling25.sudden_nose_load(transport(damping=0.3))
+    damped = rolling25.sudden_nose_load(transport(damping=0.3))
     f = 1 + math.exp(-math.pi * 0.3 / math.sqrt(1 - 0.09))
     assert damped == pytest.approx(W / 12 * (1 + f * 26.4 / 14.4), rel=CLOSE)
-    (static,) = [c for c in handling25.braked_roll(transport()) if "(1)" in c.paragraph]
-    heavy = handling25.sudden_nose_load(transport(damping=0.999999))
+    (static,) = [c for c in rolling25.braked_roll(transport()) if "(1)" in c.paragraph]
+    heavy = rolling25.sudden_nose_load(transport(damping=0.999999))
     assert heavy == pytest.approx(totals(static)["nose"][2], rel=CLOSE)
 
 
 def test_495_turn_moves_half_w_e_over_track_to_the_outer_gear():
-    starboard, port = handling25.turning(transport())
+    starboard, port = turning25.turning(transport())
     shift = 0.5 * W * 3.0 / 7.0
     main = W * 11 / 24
     assert totals(starboard)["left"] == approx(0, 0.5 * (main + shift), main + shift)
@@ -129,20 +135,20 @@ def test_495_turn_moves_half_w_e_over_track_to_the_outer_gear():
 
 
 def test_497_tail_wheel_has_its_load_at_rest_to_the_side():
-    cases = list(handling25.tail_wheel_yaw(taildragger()))
+    cases = list(turning25.tail_wheel_yaw(taildragger()))
     assert totals(cases[0])["tail"] == approx(0, 980.665, 980.665)
     assert [c.loads[2].at for c in cases[:2]] == ["axle", "ground"]
 
 
 def test_499_a_nose_wheel_has_80_percent_to_the_side():
-    starboard, _ = handling25.nose_yaw(transport())
+    starboard, _ = turning25.nose_yaw(transport())
     assert totals(starboard)["nose"] == approx(0, 0.8 * W / 12, W / 12)
     assert totals(starboard)["left"] == approx(0, 0, W * 11 / 24)
 
 
 def test_499_b_brakes_of_one_side_are_held_by_the_nose_wheel():
     aircraft = transport()
-    starboard, port = handling25.one_side_braked(aircraft)
+    starboard, port = turning25.one_side_braked(aircraft)
     # V_N = W (B + 0.4 E)/(A + B + 0.4 E) = W 2.2/13.2; D = 0.4 V_M; Y = D 3.5/12
     nose, drag = W * 2.2 / 13.2, 0.4 * W * 11 / 13.2
     assert totals(starboard)["nose"] == approx(0, -drag * 3.5 / 12, nose)
@@ -155,14 +161,14 @@ def test_499_b_brakes_of_one_side_are_held_by_the_nose_wheel():
 
 
 def test_499_e_steering_is_the_full_torque_with_1_33_of_rest():
-    starboard, _ = handling25.steering(transport())
+    starboard, _ = turning25.steering(transport())
     assert totals(starboard)["nose"] == approx(0, 0, 1.33 * W / 12)
     assert starboard.loads[0].moment[2] == pytest.approx(-5e3)
 
 
 def test_503_pivoting_torque_is_friction_times_the_wheels_distance():
     aircraft = transport()
-    case = next(handling25.pivoting(aircraft))
+    case = next(turning25.pivoting(aircraft))
     torque = 0.8 * W * 11 / 24 * 0.45
     locked = next(one for one in case.loads if one.gear == "left")
     assert abs(locked.moment[2]) == pytest.approx(torque, rel=CLOSE)
@@ -173,11 +179,11 @@ def test_503_pivoting_torque_is_friction_times_the_wheels_distance():
 
 
 def test_507_reversed_braking_is_55_percent_forward_or_1_2_times_the_torque():
-    (case,) = handling25.reversed_braking(transport())
+    (case,) = rolling25.reversed_braking(transport())
     main = W * 11 / 24
     assert totals(case)["left"] == approx(-0.55 * main, 0, main)
     assert totals(case)["nose"] == approx(0, 0, W / 12)
-    (weak,) = handling25.reversed_braking(transport(torque=50e3))
+    (weak,) = rolling25.reversed_braking(transport(torque=50e3))
     assert totals(weak)["left"][0] == pytest.approx(-1.2 * 50e3 / 0.5)
 
 
@@ -186,14 +192,14 @@ def test_507_reversed_braking_is_55_percent_forward_or_1_2_times_the_torque():
     [(20e3, 6000.0), (30e3, 9000.0), (60e3, 11571.43), (100e3, 15e3), (150e3, 22.5e3)],
 )
 def test_509_towing_load_is_continuous_in_the_weight(pounds: float, tow: float):
-    newton = handling25.POUND_FORCE
-    assert handling25.towing_load(pounds * newton) == pytest.approx(
+    newton = towing25.POUND_FORCE
+    assert towing25.towing_load(pounds * newton) == pytest.approx(
         tow * newton, rel=CLOSE
     )
 
 
 def test_509_towing_reactions():
-    cases = {c.name: c for c in handling25.towing(transport())}
+    cases = {c.name: c for c in towing25.towing(transport())}
     assert len(cases) == 24
     tow = 0.15 * W
     held, free = (
@@ -220,7 +226,7 @@ def test_511_flat_tires():
     assert totals(cases[0])["left"] == approx(0.6 * 125e3, 0, 0.6 * 500e3)
     side = next(c for c in cases if "25.485" in c.name)
     assert totals(side)["left"] == approx(0, 0.6 * 200e3, 250e3)
-    handling = {c.name: c for c in handling25.flat_tire_handling(transport())}
+    handling = {c.name: c for c in flat_tires25.flat_tire_handling(transport())}
     turn = handling["one flat: 25.495 turn, load to starboard"]
     assert totals(turn)["nose"] == approx(0, W / 48, W / 12)
     # Of twins one tire is left with its own drag, more than 40 % of both.
@@ -231,7 +237,7 @@ def test_511_flat_tires():
 
 
 def test_519_jacking_is_1_33_with_a_third_any_way():
-    cases = [c for c in handling25.jacking(transport()) if "jacked at left" in c.name]
+    cases = [c for c in towing25.jacking(transport()) if "jacked at left" in c.name]
     main = W * 11 / 24
     assert totals(cases[0])["left"] == approx(0, 0, 1.33 * main)
     assert totals(cases[3])["left"] == approx(0, 0.33 * main, 1.33 * main)

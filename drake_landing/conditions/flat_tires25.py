@@ -1,0 +1,55 @@
+"""CS-25 (14 CFR 25) ground handling with flat tires, 25.511(e) and (f)."""
+
+from collections.abc import Iterator
+
+from drake_landing.conditions.ground import BookCase, GroundAircraft, load
+from drake_landing.conditions.rolling25 import braked_drag
+from drake_landing.conditions.statics import resting
+from drake_landing.conditions.towing25 import towing
+from drake_landing.conditions.turning25 import turning
+
+FLAT = ((1, 2, 0.6, "one"), (2, 4, 0.5, "two"))
+
+
+def flat_tire_handling(aircraft: GroundAircraft) -> Iterator[BookCase]:
+    """25.511(e), (f): side and drag factors up to 50 and 40 %, n = 1; tow 60, 50 %."""
+    for flat, enough, tow, word in FLAT:
+        if not any(gear.wheels >= enough for gear in aircraft.mains):
+            continue
+        cases = [*turning(aircraft, 0.5), *_less_drag(aircraft, flat)]
+        for case in cases:
+            yield _renamed(case, "25.511(e)", f"{word} flat: {case.title}")
+        for case in towing(aircraft, tow):
+            yield _renamed(case, "25.511(f)", f"{word} flat: {case.title}")
+
+
+def _less_drag(aircraft: GroundAircraft, flat: int) -> Iterator[BookCase]:
+    """Braked roll, n = 1: 40 % of the drag, no less than that of the inflated tires."""
+    rest = dict(resting(aircraft, aircraft.mains))
+    share = aircraft.weight / sum(rest.values())
+    kept = {g: max(0.4, 1.0 - flat / max(g.wheels, flat)) for g in rest}
+    yield BookCase(
+        paragraph="25.493(b)(2)",
+        name="braked, main gears, n = 1",
+        loads=tuple(
+            load(
+                g,
+                "ground",
+                vertical=share * z,
+                drag=kept[g] * braked_drag(g, share * z),
+            )
+            for g, z in rest.items()
+        ),
+        pose="static",
+    )
+
+
+def _renamed(case: BookCase, paragraph: str, name: str) -> BookCase:
+    return BookCase(
+        paragraph=paragraph,
+        name=name,
+        loads=case.loads,
+        pose=case.pose,
+        lift=case.lift,
+        note=case.note,
+    )
