@@ -29,6 +29,7 @@ from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.conditions.build import on_ground
 from drake_landing.conditions.peaks import landing_story
+from drake_landing.conditions.rules import condition_figures
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
@@ -36,7 +37,6 @@ from drake_landing.landing.settling import LIMIT
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import parts_looked_at
-from drake_landing.process.static_conditions import condition_figures
 from drake_landing.results.files import FILES
 from drake_landing.transient.step_error import (
     StepError,
