@@ -88,7 +88,6 @@ def run(
     ] = False,
 ) -> None:
     """The whole process for a case: landing, direct transient, comparison, report."""
-    from drake_landing.case.reading import load_case
     from fem.deck.source import include_reach
 
     if pdf:
@@ -96,27 +95,41 @@ def run(
 
         browser()  # said before the work, not after it
     with include_reach(include_path or [], trust=trust):
-        _run(load_case(case), out, practices=practices, pdf=pdf)
+        _run(_case(case), out, practices=practices, pdf=pdf)
 
 
 @app.command()
 def new(
     case: Annotated[Path, typer.Argument(metavar="CASE.yaml", help="file to write")],
     deck: Annotated[Path, typer.Option("--deck", help="Nastran deck of the airframe")],
+    units: Annotated[
+        str | None,
+        typer.Option("--units", help="of the deck: SI, mm-t-N or in-lbf; else guessed"),
+    ] = None,
+    forward: Annotated[
+        str | None,
+        typer.Option(
+            "--forward", help="where the deck's nose points, e.g. x or -x; else guessed"
+        ),
+    ] = None,
+    up: Annotated[
+        str | None,
+        typer.Option("--up", help="up in the deck, e.g. z or -z; else guessed"),
+    ] = None,
     include_path: Reach = None,
     trust: Trust = False,
 ) -> None:
     """Writes a commented case for a deck: units, axes, points, gears to begin with."""
-    from drake_landing.process.new_case import new_case
+    _expect_deck(deck)
+    from drake_landing.process.new_case import Stated, new_case
     from fem.deck.source import include_reach
     from fem.errors import InputError
     from fem.files.atomic import write_aside
 
-    _expect_deck(deck)
     if case.exists():
         raise InputError(f"{case}: is there already, and is left as it is")
     with include_reach(include_path or [], trust=trust):
-        text = new_case(deck, case)
+        text = new_case(deck, case, Stated(units=units, forward=forward, up=up))
     write_aside(case, lambda to: to.write_text(text, encoding="utf-8") and None)
     again = shlex.quote(str(case))
     print(f"{case}: replace what is marked GUESS, then drake-landing check {again}")
@@ -130,13 +143,12 @@ def conditions(
     trust: Trust = False,
 ) -> None:
     """Ground-load conditions of CS-25 or CS-23 as balanced static cases."""
-    from drake_landing.case.reading import load_case
+    loaded = _case(case)
     from drake_landing.process.static_conditions import run_conditions, summary
     from drake_landing.progress import reporter
     from fem.deck.source import include_reach
     from fem.files.folders import claim
 
-    loaded = load_case(case)
     folder = out or Path("out", "conditions", loaded.name)
     folder = claim(folder, f"conditions {loaded.name}")
     with include_reach(include_path or [], trust=trust), reporter() as progress:
@@ -162,7 +174,7 @@ def check(
     trust: Trust = False,
 ) -> None:
     """Explains a case after a dry run: deck, mechanisms, gears, initial state."""
-    from drake_landing.case.reading import case_text, load_case, schema_text
+    from drake_landing.case.reading import case_text, schema_text
     from fem.deck.source import include_reach
     from fem.errors import InputError
 
@@ -178,7 +190,7 @@ def check(
 
         print(explain_campaign(load_campaign(case)))
         return
-    checked = load_case(case)
+    checked = _case(case)
     from drake_landing.process.explain import explain
     from drake_landing.transient.step_error import StepRefused
 
@@ -235,11 +247,11 @@ def show(
     trust: Trust = False,
 ) -> None:
     """Pictures of a deck: mesh by component, modes, a viewer that needs no server."""
+    _expect_deck(deck)
     from drake_landing.show import show_model
     from fem.deck.source import include_reach
     from fem.files.folders import claim
 
-    _expect_deck(deck)
     folder = claim(out or Path("out", "show", deck.stem), f"show {deck.name}")
     with include_reach(include_path or [], trust=trust):
         show_model(deck, folder, modes)
@@ -298,13 +310,16 @@ def campaign(
     trust: Trust = False,
 ) -> None:
     """Many landings: stress of every element, envelopes, critical cases; goes on."""
+    from drake_landing.campaign.cases import load_campaign
+
+    planned = load_campaign(file)  # what is wrong with it, before much is loaded
     from drake_landing.campaign.command import campaign_command
     from drake_landing.campaign.engine import Pool
     from fem.deck.source import include_reach
 
     pool = Pool(scheduler=scheduler, workers=workers, memory_gb=memory)
     with include_reach(include_path or [], trust=trust):
-        failed = campaign_command(file, out, pool, report or [], compare)
+        failed = campaign_command(planned, file, out, pool, report or [], compare)
     if failed:
         raise typer.Exit(3)
 
@@ -333,11 +348,11 @@ def reduce(
     trust: Trust = False,
 ) -> None:
     """Reduces a deck to interface grids; checks; HDF5, DMIG punch and OUTPUT4."""
+    _expect_deck(deck)
     from drake_landing.reduced.command import reduce_deck
     from fem.deck.source import include_reach
     from fem.files.folders import claim
 
-    _expect_deck(deck)
     folder = claim(out or Path("out", "reduce", deck.stem), f"reduce {deck.name}")
     options = {"highest_hz": highest, "count": count, "compare_hz": compare}
     with include_reach(include_path or [], trust=trust):
@@ -398,11 +413,22 @@ how far a single mode gets. With the 76 modes below 50 Hz both models agree far 
 
 def _expect_deck(path: Path) -> None:
     from fem.errors import InputError
+    from fem.input_files import expect_file
 
     if path.suffix.lower() in (".yaml", ".yml"):
         raise InputError(f"{path}: is a YAML file, expected a Nastran deck")
-    if not path.is_file():
-        raise InputError(f"{path}: no such file")
+    expect_file(path)
+
+
+def _case(path: Path) -> "Case":
+    """A case whose deck is there."""
+    from drake_landing.case.deck_file import deck_file
+    from drake_landing.case.reading import load_case
+
+    case = load_case(path)
+    with case.reading():
+        deck_file(case.airframe)
+    return case
 
 
 def _default_folder(case: "Case") -> Path:

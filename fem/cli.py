@@ -107,6 +107,14 @@ def run(
         Path | None,
         typer.Option(help="Folder for results; default out/fem/<deck>, by name alone."),
     ] = None,
+    sol: Annotated[
+        int | None,
+        typer.Option(
+            "--sol",
+            help="Solve the deck's subcases as this solution (101, 103, ...), whatever "
+            "its own is.",
+        ),
+    ] = None,
     ignore: Annotated[
         str, typer.Option(help="Unsupported cards to go on without: CARD,CARD,...")
     ] = "",
@@ -153,6 +161,9 @@ def run(
     ] = None,
 ) -> None:
     """Solve a Nastran deck's own case control and write DIR/<deck>.h5."""
+    from fem.input_files import expect_file
+
+    expect_file(deck)
     from fem.deck.reader import read_deck
     from fem.deck.source import include_reach
     from fem.errors import InputError
@@ -160,6 +171,7 @@ def run(
     from fem.files.export import export, wants_op2
     from fem.files.folders import claimed
     from fem.solution import Options, run_deck, solution_problems
+    from fem.solution.override import as_solution
 
     console = RichConsole()
     with contextlib.ExitStack() as stack:
@@ -170,7 +182,11 @@ def run(
             model = read_deck(deck, ignore=names)
         except InputError as error:
             # What makes the rest moot comes first.
-            raise InputError([*solution_problems(deck), *error.problems]) from None
+            moot = [] if sol is not None else solution_problems(deck)
+            raise InputError([*moot, *error.problems]) from None
+        if sol is not None:
+            model, told = as_solution(model, sol)
+            console.say(f"notice: {'; '.join(told)}")
         folder = out if out is not None else Path("out", "fem", deck.stem)
         stack.enter_context(claimed(folder, "fem", file_name(deck.stem)))
         options = Options(

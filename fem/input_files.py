@@ -4,9 +4,20 @@ known. Folders, devices and pipes are named for what they are, and never waited 
 import stat
 from pathlib import Path
 
-from fem.errors import InputError
+from fem.errors import InputError, nearest
 
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+
+
+def expect_file(path: Path) -> None:
+    """Raises an InputError, with the nearest name, where nothing is at a path."""
+    if path.exists():
+        return
+    folder = path.parent
+    others = (
+        [p.name for p in folder.iterdir() if p.is_file()] if folder.is_dir() else []
+    )
+    raise InputError(f"{path}: no such file{nearest(path.name, sorted(others))}")
 
 
 def given_bytes(path: Path, what: str, most: int = 100_000_000) -> bytes:

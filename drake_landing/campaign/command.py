@@ -4,7 +4,6 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
-from drake_landing.campaign.cases import load_campaign
 from drake_landing.campaign.compare import compare_campaigns
 from drake_landing.campaign.critical_decks import write_critical_decks
 from drake_landing.campaign.engine import Pool
@@ -23,6 +22,7 @@ from fem.files.folders import claim
 
 
 def campaign_command(
+    campaign: Campaign,
     file: Path,
     out: Path | None,
     pool: Pool,
@@ -37,7 +37,6 @@ def campaign_command(
     Raises:
         InputError: campaign, case, deck or gears are at fault.
     """
-    campaign = load_campaign(file)
     folder = claim(out or Path("out", "campaign", campaign.name), f"campaign {file}")
     if reports:
         _reports(campaign, folder, reports)

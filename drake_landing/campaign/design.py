@@ -7,8 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import scipy.stats
-from scipy.stats import qmc
 
 from drake_landing.campaign.schema import (
     Axis,
@@ -70,6 +68,8 @@ def _samples(
         return
     columns: dict[str, Sequence[Value]] = {}
     if drawn:
+        from scipy.stats import qmc
+
         cube = qmc.LatinHypercube(len(drawn), seed=rng).random(campaign.samples)
         for (path, axis), share in zip(drawn.items(), cube.T):
             columns[path] = quantiles(axis, share).tolist()
@@ -82,6 +82,8 @@ def _samples(
 
 def quantiles(axis: Distribution, share: Float64) -> Float64:
     """Values of a truncated distribution at shares (n,) of its probability."""
+    import scipy.stats
+
     law = getattr(scipy.stats, axis.distribution)(**axis.values)
     low = 0.0 if axis.low is None else law.cdf(axis.low)
     high = 1.0 if axis.high is None else law.cdf(axis.high)

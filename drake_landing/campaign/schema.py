@@ -16,7 +16,6 @@ together (latin hypercube), `samples` times for every combination.
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-import scipy.stats
 from pydantic import (
     Discriminator,
     Field,
@@ -63,6 +62,8 @@ class Distribution(Section):
     @field_validator("distribution")
     @classmethod
     def _known(cls, name: str) -> str:
+        import scipy.stats  # a second, for campaigns that draw
+
         known = [
             n
             for n in dir(scipy.stats)
@@ -77,6 +78,8 @@ class Distribution(Section):
 
     @model_validator(mode="after")
     def _frozen(self) -> Self:
+        import scipy.stats
+
         try:
             law = getattr(scipy.stats, self.distribution)(**self.values)
             inside = law.cdf(_or(self.high, float("inf"))) - law.cdf(

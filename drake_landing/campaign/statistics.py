@@ -6,7 +6,6 @@ not.
 
 import numpy as np
 import pandas as pd
-import scipy.stats
 
 from fem.arrays import Float64
 
@@ -22,6 +21,8 @@ def exceedance(values: Float64, confidence: float = 0.9) -> pd.DataFrame:
         Rows by falling value; columns `value`, `share` (k/(n+1) of the k-th largest,
         Weibull's plotting position), `low`, `high`.
     """
+    import scipy.stats
+
     ordered = np.sort(values[np.isfinite(values)])[::-1]
     n = len(ordered)
     k = np.arange(1, n + 1)

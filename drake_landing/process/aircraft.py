@@ -15,6 +15,7 @@ from drake_landing.airframe.mass_cases import check_target, write_mass_case
 from drake_landing.airframe.steady import steady_flight
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.damping import AirframeDamping
+from drake_landing.case.deck_file import deck_file
 from drake_landing.case.lift import Lift
 from drake_landing.case.mass_cases import mass_case_of
 from drake_landing.case.scenario import Scenario
@@ -29,7 +30,7 @@ from fem.deck.conversions import Units
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
-from fem.errors import InputError, nearest
+from fem.errors import InputError
 from fem.files.escaping import file_name
 from fem.model.structure import Structure
 
@@ -47,9 +48,9 @@ def checked_aircraft(
     structure = aircraft.structure()
     check_nodes(structure, aircraft)
     check_mass(structure)
-    check_units(structure, aircraft)
+    remarks = check_units(structure, aircraft)
     R_AB = rotation_AB(case.airframe.axes)
-    return aircraft, structure, tuple(check_gears(structure, aircraft, R_AB))
+    return aircraft, structure, (*remarks, *check_gears(structure, aircraft, R_AB))
 
 
 def prepare_aircraft(case: Case, out: Path) -> Aircraft:
@@ -63,11 +64,10 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
         _read, ignore=airframe.ignore, units=airframe.units
     )
     if airframe.model is None:
-        deck = airframe.deck
+        deck = deck_file(airframe)
         if airframe.matrices is not None:
             deck, read = _matrices_deck(airframe, airframe.matrices, out)
-        if deck is None or not deck.is_file():
-            raise InputError(f"airframe.deck: {_not_a_file(deck)}")
+        assert deck is not None  # the case sees to it
         assert not isinstance(case.gears, str)  # the case sees to it
         gears, notices = with_read_legs(case.gears)
         name = deck.stem
@@ -188,16 +188,6 @@ def _as_field(field: str, begin: str) -> Iterator[None]:
         raise InputError(
             f"{field}: {text.removeprefix(begin)}" for text in error.problems
         ) from None
-
-
-def _not_a_file(deck: Path | None) -> str:
-    """What is there in place of a deck, and what may be meant."""
-    if deck is None or not deck.parent.is_dir():
-        return f"found {deck}, expected a file; the folder does not exist"
-    if deck.is_dir():
-        return f"found {deck}, a folder; expected a file"
-    others = sorted(p.name for p in deck.parent.iterdir() if p.is_file())
-    return f"found {deck}, no such file" + nearest(deck.name, others)
 
 
 def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario:

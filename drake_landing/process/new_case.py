@@ -13,36 +13,76 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from drake_landing.airframe.deck_units import (
+    METALS,
+    material_moduli,
+    span_and_sized,
+    units_of_materials,
+)
 from drake_landing.airframe.free_flight import half_model
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.selection import expected_pulses
 from drake_landing.cache import Cache
+from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import parse_case
-from drake_landing.case.schema import Case
+from drake_landing.case.schema import Axes, Case
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.step_error import STEPS, step_error
 from fem.arrays import Float64, Int64
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
-from fem.deck.units import in_si, units_of
-from fem.errors import InputError
+from fem.deck.units import SYSTEMS, in_si, units_of
+from fem.errors import InputError, nearest
 from fem.model.structure import Structure
 
-# Young's modulus of aluminium in each system; titanium, steel and fibres are near.
-_METALS = {"SI": 7e10, "mm-t-N": 7e4, "in-lbf": 1e7}
 _GRAVITY = 9.81  # m/s²
-_INCH_GRAVITY = 386.1  # in/s²
 _NOSE_SHARE = 0.1  # of the weight
 _STROKE, _STATIC = 0.35, 0.7  # m; share of the stroke at rest
 _CANDIDATES = 4
+_AXES = ("x", "-x", "y", "-y", "z", "-z")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stated:
+    """What the user says of the deck; None: to be guessed.
+
+    Attributes:
+        units: a name of `fem.deck.units.SYSTEMS`.
+        forward, up: axes of the deck, such as `-x`.
+    """
+
+    units: str | None = None
+    forward: str | None = None
+    up: str | None = None
+
+    def check(self) -> None:
+        """Raises an InputError with all that cannot be meant."""
+        problems = []
+        for option in ("forward", "up"):
+            axis = getattr(self, option)
+            if axis is not None and axis not in _AXES:
+                problems.append(
+                    f"--{option}: found {axis}, expected one of {', '.join(_AXES)}"
+                )
+        if self.units is not None and self.units not in SYSTEMS:
+            problems.append(
+                f"--units: found {self.units}, expected one of {', '.join(SYSTEMS)}"
+                + nearest(self.units, list(SYSTEMS))
+            )
+        if self.forward and self.up and self.forward[-1] == self.up[-1]:
+            problems.append(
+                f"--up: found {self.up}, expected another axis than that of --forward "
+                f"{self.forward}"
+            )
+        if problems:
+            raise InputError(problems)
 
 
 @dataclass(frozen=True)
 class _Layout:
     """A deck as an aircraft: axes A are aft, starboard, up (m)."""
 
-    forward: str
-    up: str
+    axes: Axes
     ids: Int64
     p: Float64  # (g, 3) in A
     R_BA: Float64
@@ -55,23 +95,40 @@ class _Layout:
         return np.argsort(away, kind="stable")[:count].tolist()
 
 
-def new_case(deck: Path, case: Path) -> str:
+def new_case(deck: Path, case: Path, stated: Stated | None = None) -> str:
     """The text of a case for a deck.
 
     Args:
         deck: bulk-data file.
         case: the file that the text is for; the deck's path is relative to it.
+        stated: what need not be guessed.
 
     Raises:
-        InputError: the deck cannot be read, or has no mass.
+        InputError: the deck cannot be read, has no mass, or what is stated cannot be.
     """
+    stated = stated or Stated()
+    stated.check()
     raw = read_deck(deck)
-    units = guess_units(raw)
+    units = stated.units or guess_units(raw)
     structure = Structure.from_deck(in_si(raw, units_of(units)))
-    layout = _layout(structure)
-    text = "\n".join(_lines(deck, case, units, layout)) + "\n"
+    _check_size(structure, units)
+    layout = _layout(structure, stated)
+    text = "\n".join(_lines(deck, case, stated, units, layout)) + "\n"
     return text + _transient(
         parse_case(text, file=str(case), folder=case.resolve().parent)
+    )
+
+
+def _check_size(structure: Structure, units: str) -> None:
+    """Raises an InputError where nothing that lands has the size."""
+    span, sized = span_and_sized(structure, units)
+    if units in sized:
+        return
+    told = units_of_materials(structure.deck, units)
+    materials = f"; its materials say {told}" if told and told != units else ""
+    raise InputError(
+        f"--units: found {units}, in which {structure.deck.path} spans {span:,.4g} m"
+        f"{materials}; expected {' or '.join(sized) or 'the deck of an aircraft'}"
     )
 
 
@@ -94,51 +151,30 @@ def _transient(case: Case) -> str:
 
 
 def guess_units(deck: Deck) -> str:
-    """By PARAM WTMASS of 1/386.1 (lbf), else the system in which most moduli of MAT1,
-    MAT2 and MAT8 are those of metals and fibres; without any the largest extent of the
-    grids decides: metres below 150.
+    """By weight and materials (`units_of_materials`), else by the modulus that is
+    nearest to a metal's; without any the largest extent of the grids decides: metres
+    below 150.
     """
-    if abs((deck.number("WTMASS") or 1.0) * _INCH_GRAVITY - 1.0) < 0.02:
-        return "in-lbf"
-    columns = {"MAT1": "e", "MAT2": "g11", "MAT8": "e1"}
-    found = [deck.cards[n][c].to_numpy(float) for n, c in columns.items()]
-    moduli = np.concatenate(found)
-    moduli = moduli[moduli > 0.0]
+    if told := units_of_materials(deck):
+        return told
+    moduli = material_moduli(deck)
     if len(moduli):
-        hits = {
-            name: int(np.sum((moduli >= 0.3 * metal) & (moduli <= 6.0 * metal)))
-            for name, metal in _METALS.items()
-        }
-        if most := max(hits.values()):
-            fits = [name for name, hit in hits.items() if hit == most]
-        else:
-            fits = list(_METALS)
         e = float(np.median(moduli))
-        return min(fits, key=lambda n: abs(np.log(e / _METALS[n])))
+        return min(METALS, key=lambda n: abs(np.log(e / METALS[n])))
     p = deck.cards["GRID"][["x1", "x2", "x3"]].to_numpy(float)
     return "SI" if np.ptp(p, axis=0).max() < 150.0 else "mm-t-N"
 
 
-def _layout(structure: Structure) -> _Layout:
+def _layout(structure: Structure, stated: Stated) -> _Layout:
     p, weight = structure.points.xyz, structure.rigid_mass
     if problems := half_model(p):
         raise InputError(f"{structure.deck.path}: {text}" for text in problems)
     if weight.total <= 0.0:
         raise InputError("the deck has no mass, expected that of an airframe")
-    lateral = _lateral(p)
-    rest = [a for a in range(3) if a != lateral]
-    spans = np.ptp(p[:, rest], axis=0)
-    along, up = rest[int(spans.argmax())], rest[int(spans.argmin())]
-    # The fin stands up at the rear: what is highest is aft.
-    height = p[:, up] - np.median(p[:, up])
-    high = height >= 0.9 * height.max(initial=0.0)
-    aft = 1.0 if p[high, along].mean() >= p[:, along].mean() else -1.0
-    x, z = np.zeros(3), np.zeros(3)
-    x[along], z[up] = aft, 1.0
-    R_BA = np.stack([x, np.cross(z, x), z], axis=1)
+    axes = _guessed_axes(p, stated)
+    R_BA = rotation_AB(axes).T
     return _Layout(
-        forward=("-" if aft > 0.0 else "") + "xyz"[along],
-        up="xyz"[up],
+        axes=axes,
         ids=structure.points.grid_id,
         p=p @ R_BA,
         R_BA=R_BA,
@@ -147,14 +183,38 @@ def _layout(structure: Structure) -> _Layout:
     )
 
 
-def _lateral(p: Float64) -> int:
+def _guessed_axes(p: Float64, stated: Stated) -> Axes:
+    """Forward and up of grids (g, 3): as stated, else by symmetry and fin.
+
+    The fin is what stands out farthest from the plane of the rest, upward and aft.
+    """
+    taken = {axis[-1] for axis in (stated.forward, stated.up) if axis}
+    lateral = _lateral(p, [a for a in range(3) if "xyz"[a] not in taken])
+    rest = [a for a in range(3) if a != lateral]
+    along, vertical = sorted(rest, key=lambda a: -float(np.ptp(p[:, a])))
+    if "xyz"[vertical] == (stated.forward or " ")[-1] or (
+        "xyz"[along] == (stated.up or " ")[-1]
+    ):
+        along, vertical = vertical, along
+    height = p[:, vertical] - np.median(p[:, vertical])
+    up = stated.up or "-" * bool(-height.min() > height.max()) + "xyz"[vertical]
+    height = -height if up.startswith("-") else height
+    high = height >= 0.9 * height.max(initial=0.0)
+    aft = p[high, along].mean() >= p[:, along].mean()
+    return Axes(forward=stated.forward or "-" * bool(aft) + "xyz"[along], up=up)
+
+
+def _lateral(p: Float64, among: Sequence[int]) -> int:
     """The axis across which the grids are most nearly their own mirror image."""
     spread = np.ptp(p, axis=0)
     skewed = np.abs(p.max(axis=0) + p.min(axis=0)) / np.maximum(spread, 1e-9)
-    return int((skewed + 10.0 * (spread < 1e-3 * spread.max())).argmin())
+    skewed += 10.0 * (spread < 1e-3 * spread.max())
+    return min(among, key=lambda a: skewed[a])
 
 
-def _lines(deck: Path, case: Path, units: str, a: _Layout) -> Iterator[str]:
+def _lines(
+    deck: Path, case: Path, stated: Stated, units: str, a: _Layout
+) -> Iterator[str]:
     folder = case.resolve().parent
     shown = os.path.relpath(deck.resolve(), folder)
     name = "".join(c if c.isalnum() else "_" for c in deck.stem.lower()).strip("_")
@@ -167,8 +227,11 @@ def _lines(deck: Path, case: Path, units: str, a: _Layout) -> Iterator[str]:
     yield f"name: {name or 'landing'}"
     yield "airframe:"
     yield f"  deck: {shown!r}"
-    yield f"  units: {units} # GUESS by the moduli of its materials: SI, mm-t-N, in-lbf"
-    yield f"  axes: {{ forward: {a.forward}, up: {a.up} }} # GUESS by symmetry and fin"
+    guess = "" if stated.units else "GUESS by its materials, else new --units: "
+    yield f"  units: {units} # {guess}SI, mm-t-N or in-lbf"
+    known = stated.forward and stated.up
+    guess = "" if known else " # GUESS by symmetry and fin, else new --forward, --up"
+    yield f"  axes: {{ forward: {a.axes.forward}, up: {a.axes.up} }}{guess}"
     yield "  select: below 50 Hz # modes of the multibody model"
     yield "  monitoring: # points whose accelerations are compared: name and grid"
     for point, row in _points(a).items():
@@ -176,7 +239,10 @@ def _lines(deck: Path, case: Path, units: str, a: _Layout) -> Iterator[str]:
     yield "scenario:"
     yield "  sink_rate: 3.05 # m/s; or a preset (docs/conditions.md)"
     yield "  forward_speed: 70 # m/s, GUESS"
-    yield "gears: # GUESS throughout: of the size for this mass, not of this aircraft"
+    yield "# Gears have the size for this mass, not that of this aircraft's, and lie"
+    yield "# where units and axes put them: where these are wrong, write the case anew"
+    yield "# with the options --units, --forward and --up."
+    yield "gears: # GUESS throughout"
     yield from _gears(a)
 
 

@@ -19,6 +19,7 @@ from fem.solution.buckling import solve_buckling
 from fem.solution.frequency import solve_frequencies
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
+from fem.solution.override import ANALYSES, ways_on
 from fem.solution.requests import check_requests
 from fem.solution.static import solve_statics
 from fem.solution.transient import solve_transients
@@ -35,17 +36,6 @@ _SOLVERS: dict[int, _Solver] = {
     112: solve_transients,
 }
 _TRANSIENT = frozenset({109, 112})
-_ANALYSES = {
-    "STATICS": 101,
-    "STATIC": 101,
-    "MODES": 103,
-    "BUCK": 105,
-    "BUCKLING": 105,
-    "DFREQ": 108,
-    "MFREQ": 111,
-    "DTRAN": 109,
-    "MTRAN": 112,
-}
 
 
 def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
@@ -111,16 +101,16 @@ def solution_problems(path: Path) -> list[str]:
         return []
     number = read_executive(sections.executive).sol
     cases = read_case_control(sections.case_control, refuse=False).subcases
-    asked = {_ANALYSES.get(case.analysis.upper(), number) for case in cases}
+    asked = {ANALYSES.get(case.analysis.upper(), number) for case in cases}
     if not number or asked & _SOLVERS.keys():
         return []
-    return [_unsupported(path, number)]
+    return [_unsupported(path, number, cases)]
 
 
-def _unsupported(path: Path, number: int) -> str:
+def _unsupported(path: Path, number: int, cases: Sequence[Subcase]) -> str:
     return (
         f"{path}: SOL {number} is not supported; expected "
-        f"{', '.join(map(str, _SOLVERS))}"
+        f"{', '.join(map(str, _SOLVERS))}. What can be done: {ways_on(cases)}"
     )
 
 
@@ -133,13 +123,13 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     if not deck.sol:
         raise InputError(
             f"{deck.path}: no SOL statement; expected SOL "
-            f"{', '.join(map(str, _SOLVERS))}"
+            f"{', '.join(map(str, _SOLVERS))}, or --sol with one of them"
         )
     work: dict[int, list[Subcase]] = {}
     for subcase in deck.case_control:
-        number = _ANALYSES.get(subcase.analysis.upper(), deck.sol)
+        number = ANALYSES.get(subcase.analysis.upper(), deck.sol)
         if number not in _SOLVERS:
-            raise InputError(_unsupported(deck.path, number))
+            raise InputError(_unsupported(deck.path, number, deck.case_control))
         work.setdefault(number, []).append(subcase)
     if not work:
         raise InputError(f"{deck.path}: no subcases")

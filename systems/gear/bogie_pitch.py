@@ -15,14 +15,12 @@ Energy: d(energy)/dt + dissipated_power = -M θ'.
 import math
 from dataclasses import dataclass
 
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.systems.framework import BasicVector_, LeafSystem_
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.tools.checks import require
 from systems.tools.scalar import Scalar, log, power
 from systems.tools.stops import contact_elastic, contact_energy, never_pulling
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 _E = math.e
@@ -129,7 +127,7 @@ def pitch_energy(angle: Scalar, p: BogiePitchParameters) -> Scalar:
     return energy
 
 
-@TemplateSystem.define("BogiePitch_", T_list=(float, AutoDiffXd))
+@for_scalars
 def BogiePitch_(T):
     class Impl(LeafSystem_[T]):
         """Pitch damper and positioner of one bogie: `BogiePitch(parameters)`.

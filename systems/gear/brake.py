@@ -13,18 +13,16 @@ smooth at zero spin, so a standing aircraft creeps rather than sticks.
 
 from dataclasses import dataclass
 
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.systems.framework import (
     BasicVector_,
     LeafSystem_,
     NumericParameterIndex,
 )
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.tools.checks import require
 from systems.tools.scalar import Scalar, sqrt
 from systems.tools.table import Table
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 
@@ -105,7 +103,7 @@ def brake_torque(
     return -demand * spin / sqrt(spin * spin + transition * transition)
 
 
-@TemplateSystem.define("Brake_", T_list=(float, AutoDiffXd))
+@for_scalars
 def Brake_(T):
     class Impl(LeafSystem_[T]):
         """The brake of one wheel: `Brake(parameters)`.

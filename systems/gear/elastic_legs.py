@@ -19,16 +19,14 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.value import Value
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint
 from pydrake.systems.framework import LeafSystem_, ValueProducer
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.tools.compiled import compiled_law
 from systems.tools.scalar import Scalar
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 Float64 = npt.NDArray[np.float64]
@@ -99,7 +97,7 @@ def _require_definite(name: str, matrices: Float64, least: float) -> None:
         )
 
 
-@TemplateSystem.define("ElasticLegs_", T_list=(float, AutoDiffXd))
+@for_scalars
 def ElasticLegs_(T):
     law = elastic_forces_of_floats if T is float else elastic_forces
 

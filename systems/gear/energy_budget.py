@@ -4,7 +4,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import (
     BasicVector_,
@@ -12,14 +11,13 @@ from pydrake.systems.framework import (
     LeafSystem,
     LeafSystem_,
 )
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.tools.plant_context import declare_plant_context
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 
-@TemplateSystem.define("EnergyBudget_", T_list=(float, AutoDiffXd))
+@for_scalars
 def EnergyBudget_(T):
     class Impl(LeafSystem_[T]):
         """Kinetic and stored energy of everything, what is lost, less what is supplied.

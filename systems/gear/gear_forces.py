@@ -9,20 +9,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.value import Value
 from pydrake.multibody.math import SpatialForce_
 from pydrake.multibody.plant import ExternallyAppliedSpatialForce_, MultibodyPlant
 from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint, RigidBody
 from pydrake.systems.framework import LeafSystem_
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.gear.lever_strut import LeverStrut
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 
-@TemplateSystem.define("GearForces_", T_list=(float, AutoDiffXd))
+@for_scalars
 def GearForces_(T):
     class Impl(LeafSystem_[T]):
         """Tire wrenches, strut forces, brake and pitch torques in the plant's own form.

@@ -9,7 +9,6 @@ from types import MethodType
 from typing import Any
 
 import numpy as np
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.value import Value
 from pydrake.math import RigidTransform_
 from pydrake.multibody.plant import MultibodyPlant
@@ -21,19 +20,18 @@ from pydrake.multibody.tree import (
     RigidBody,
 )
 from pydrake.systems.framework import LeafSystem_, ValueProducer
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.gear.joint_tree import JointTree
 from systems.gear.lever_strut import LeverGeometry, LeverStrut
 from systems.tools.plant_context import declare_plant_context
 from systems.tools.scalar import sqrt
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 Strut = PrismaticJoint | LeverStrut
 
 
-@TemplateSystem.define("WheelKinematics_", T_list=(float, AutoDiffXd))
+@for_scalars
 def WheelKinematics_(T):
     class Impl(LeafSystem_[T]):
         """Kinematics of all wheels and struts of an aircraft.

@@ -1,7 +1,6 @@
 """A shock absorber, as a Drake system; the law is in `strut_law`."""
 
 import numpy as np
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
 from pydrake.common.value import Value
 from pydrake.systems.framework import (
@@ -10,21 +9,20 @@ from pydrake.systems.framework import (
     NumericParameterIndex,
     ValueProducer,
 )
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.shock_absorber.strut_law import (
     ShockAbsorberParameters,
     ShockAbsorberTunables,
     StrutLaw,
 )
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 StrutState = namedview("StrutState", ["stroke", "rate"])
 StrutComponents = namedview("StrutComponents", ["gas", "damping", "friction", "stops"])
 
 
-@TemplateSystem.define("ShockAbsorber_", T_list=(float, AutoDiffXd))
+@for_scalars
 def ShockAbsorber_(T):
     class Impl(LeafSystem_[T]):
         """A shock absorber: `ShockAbsorber(parameters)`.

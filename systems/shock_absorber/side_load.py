@@ -10,17 +10,15 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.systems.framework import LeafSystem_
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.tools.compiled import compiled_law
 from systems.tools.scalar import Scalar, sqrt
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 
-@TemplateSystem.define("SideLoad_", T_list=(float, AutoDiffXd))
+@for_scalars
 def SideLoad_(T):
     law = side_load_of_floats if T is float else side_load
 

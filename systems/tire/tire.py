@@ -2,7 +2,6 @@
 
 import math
 
-from pydrake.autodiffutils import AutoDiffXd
 from pydrake.common.containers import namedview
 from pydrake.common.value import Value
 from pydrake.math import atan2
@@ -12,12 +11,11 @@ from pydrake.systems.framework import (
     NumericParameterIndex,
     ValueProducer,
 )
-from pydrake.systems.scalar_conversion import TemplateSystem
 
 from systems.runway.runway import Runway
 from systems.tire.tire_law import TireLaw, TireParameters
 from systems.tools.checks import require
-from systems.tools.template import default_instantiation
+from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
 TireContact = namedview(
@@ -29,7 +27,7 @@ TireTunables = namedview("TireTunables", ["stiffness", "damping", "friction"])
 """The numeric parameters: factors on the law's stiffness, damping and friction."""
 
 
-@TemplateSystem.define("Tire_", T_list=(float, AutoDiffXd))
+@for_scalars
 def Tire_(T):
     class Impl(LeafSystem_[T]):
         """A tyre: `Tire(parameters, runway)`; the runway is flat and dry by default.

@@ -1,5 +1,6 @@
 """A deck in mm, t, N is the aircraft that it is in SI; wrong units are noticed."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -17,6 +18,7 @@ from drake_landing.process.landing_deck import write_landing_deck
 from drake_landing.reduced.command import reduce_deck
 from fem.deck.reader import read_deck
 from fem.errors import InputError
+from fem.model.structure import Structure
 from fem.solution import run_deck
 
 HERE = Path(__file__).parents[1]
@@ -91,6 +93,35 @@ def test_wrong_units_are_noticed(
     assert message.startswith("case.yaml:")
     assert "airframe.units: " in message
     assert all(word in message for word in words), message
+
+
+def test_gears_written_for_wrong_units_are_not_believed(tmp_path: Path) -> None:
+    """The deck's size and materials decide, not the gears that came from elsewhere."""
+    case = case_of(*MM)
+    aircraft = prepare_aircraft(case, tmp_path)
+    structure = aircraft.structure()
+    far = [
+        gear.model_copy(update={"axle": tuple(1e3 * np.array(gear.axles[0]))})
+        for gear in aircraft.gears
+    ]
+    with pytest.raises(InputError) as caught:
+        check_units(structure, replace(aircraft, gears=tuple(far)))
+    assert "gears: gears lie up to" in str(caught.value)
+    assert "They fit a deck in SI" in str(caught.value)
+    assert "new --units mm-t-N" in str(caught.value)
+
+
+def test_materials_of_other_units_are_a_remark(tmp_path: Path) -> None:
+    """Of the size of an aircraft in both, as decks in inches are in mm."""
+    case = case_of(*MM)
+    aircraft = prepare_aircraft(case, tmp_path)
+    structure = aircraft.structure()
+    assert check_units(structure, aircraft) == ()
+    deck = structure.deck
+    soft = deck.cards["MAT1"].assign(e=1e7 * 1e6)  # psi, taken for MPa
+    psi = Structure.from_deck(replace(deck, cards={**deck.cards, "MAT1": soft}))
+    (remark,) = check_units(psi, aircraft)
+    assert "they look like in-lbf" in remark
 
 
 def test_matrices_may_have_units_too(tmp_path: Path) -> None:

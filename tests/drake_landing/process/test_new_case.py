@@ -9,10 +9,10 @@ from drake_landing.airframe.free_flight import half_model
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import load_case
-from drake_landing.case.schema import Case
+from drake_landing.case.schema import Axes, Case
 from drake_landing.cli import app, guarded
 from drake_landing.process.aircraft import prepare_aircraft
-from drake_landing.process.new_case import guess_units
+from drake_landing.process.new_case import Stated, _guessed_axes, guess_units
 from fem.deck.reader import read_deck
 from tests.drake_landing.one_aircraft import FRAMES, MM_T_N, SI, WEIGHTS, case_of
 
@@ -93,3 +93,59 @@ def test_weights_in_pounds_say_their_units(tmp_path: Path) -> None:
     assert guess_units(read_deck(deck)) == "in-lbf"
     deck.write_text(deck.read_text().replace("PARAM,WTMASS,.00259\n", ""))
     assert guess_units(read_deck(deck)) == "in-lbf"  # by the metal, not the core
+
+
+# An aircraft in aft, starboard, up: fuselage, wing with engines below, fin.
+CLOUD = np.array(
+    [(x, 0.0, 0.0) for x in range(15)]
+    + [(6.0, side * y, 0.1 * y) for y in range(1, 8) for side in (-1, 1)]
+    + [(5.0, side * 3.0, -1.2) for side in (-1, 1)]
+    + [(13.5, 0.0, 1.5), (14.0, 0.0, 3.0)]
+)
+SIGNED = [sign + axis for axis in "xyz" for sign in ("", "-")]
+
+
+@pytest.mark.parametrize("forward", SIGNED)
+def test_axes_are_found_however_a_deck_lies(forward: str) -> None:
+    for up in (axis for axis in SIGNED if axis[-1] != forward[-1]):
+        grids = CLOUD @ rotation_AB(Axes.model_validate({"forward": forward, "up": up}))
+        for stated in (
+            Stated(),
+            Stated(forward=forward),
+            Stated(up=up),
+            Stated(forward=forward, up=up),
+        ):
+            found = _guessed_axes(grids, stated)
+            assert (found.forward, found.up) == (forward, up), (forward, up, stated)
+
+
+def test_what_is_stated_is_not_guessed(tmp_path: Path) -> None:
+    path = tmp_path / "new.yaml"
+    options = ["--units", "mm-t-N", "--forward", "x", "--up", "z"]
+    assert guarded(app, ["new", str(path), "--deck", str(COMMUTER), *options]) == 0
+    head = path.read_text().split("scenario:")[0]
+    assert "GUESS by" not in head
+    assert load_case(path).airframe.units == "mm-t-N"
+
+
+def test_options_that_cannot_be_are_all_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "new.yaml"
+    options = ["--units", "mm-t", "--forward", "x", "--up", "-x"]
+    assert guarded(app, ["new", str(path), "--deck", str(COMMUTER), *options]) == 2
+    said = capsys.readouterr().err
+    assert "--units: found mm-t, expected one of SI, mm-t-N, in-lbf" in said
+    assert "--up: found -x, expected another axis than that of --forward x" in said
+    assert not path.exists()
+
+
+def test_units_of_no_aircraft_are_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "new.yaml"
+    options = ["--units", "SI"]
+    assert guarded(app, ["new", str(path), "--deck", str(COMMUTER), *options]) == 2
+    said = capsys.readouterr().err
+    assert "--units: found SI, in which" in said
+    assert "its materials say mm-t-N; expected mm-t-N" in said
