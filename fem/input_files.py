@@ -13,11 +13,10 @@ def expect_file(path: Path) -> None:
     """Raises an InputError, with the nearest name, where nothing is at a path."""
     if path.exists():
         return
-    folder = path.parent
-    others = (
-        [p.name for p in folder.iterdir() if p.is_file()] if folder.is_dir() else []
-    )
-    raise InputError(f"{path}: no such file{nearest(path.name, sorted(others))}")
+    others: list[str] = []
+    if path.parent.is_dir():
+        others = sorted(p.name for p in path.parent.iterdir() if p.is_file())
+    raise InputError(f"{path}: no such file{nearest(path.name, others)}")
 
 
 def given_bytes(path: Path, what: str, most: int = 100_000_000) -> bytes:

@@ -40,10 +40,11 @@ def ways_on(subcases: Sequence[Subcase]) -> str:
         said = [c for c in subcases if ANALYSES.get(c.analysis.upper()) == number]
         if said:
             offers.append(f"--sol {number} solves {_named(said)} as ANALYSIS says")
-    if not any(offer.startswith("--sol 101") for offer in offers):
-        if loaded := [c for c in subcases if c.load or c.temperature]:
-            offers.append(f"--sol 101 solves {_named(loaded)} as statics")
-    if not any(offer.startswith("--sol 103") for offer in offers):
+    told = {offer.split()[1] for offer in offers}
+    loaded = [case for case in subcases if case.load or case.temperature]
+    if loaded and "101" not in told:
+        offers.append(f"--sol 101 solves {_named(loaded)} as statics")
+    if "103" not in told:
         offers.append("--sol 103 finds the modes of the model")
     return "; ".join(offers)
 
@@ -112,8 +113,8 @@ def _method(deck: Deck, cards: dict[str, pd.DataFrame]) -> tuple[int, str]:
     if len(table):
         number = int(table["sid"].iloc[0])
         return number, f"METHOD = {number}, the deck's first EIGRL"
-    blank = {n: "" if t == object else np.nan for n, t in table.dtypes.items()}
-    blank |= {n: 0 for n, t in table.dtypes.items() if t.kind == "i"}
+    of_kind = {"i": 0, "f": np.nan}
+    blank = {n: of_kind.get(t.kind, "") for n, t in table.dtypes.items()}
     row = pd.DataFrame([blank | {"sid": 1, "nd": _COUNT}])
     cards["EIGRL"] = row.astype(table.dtypes.to_dict())
     return 1, f"the {_COUNT} lowest modes, as the deck has no EIGRL"
