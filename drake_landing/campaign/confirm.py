@@ -28,7 +28,7 @@ class BlockTask:
 
     Attributes:
         numbers: of the cases.
-        ends: s, where each may end.
+        ends: s, where each ends; what comes later is not in its extremes.
         landing, transient: setups of the airframe.
         folder: of the case files.
         scheme: a key of `SCHEMES`.
@@ -63,12 +63,14 @@ def run_block(task: BlockTask) -> tuple[int, ...]:
     full = read_transient_setup(task.transient)
     time, loads = _loads(task)
     steady = None if setup.steady is None else Steady(stress=setup.steady)
-    watch = StressExtremes(setup.rows, full.maps, full.extension, steady)
+    watch = StressExtremes(
+        setup.rows, full.maps, full.extension, steady, until=task.ends
+    )
     _integrate(full, time, loads, watch, task.scheme)
-    for case, (number, key) in enumerate(zip(task.numbers, task.keys)):
+    for case, (number, end, key) in enumerate(zip(task.numbers, task.ends, task.keys)):
         state = watch.state.of_case(slice(case, case + 1))
         with written_hdf5(confirmed_file(task.folder, number)) as file:
-            file.attrs.update(case=number, key=key, until=time[-1])
+            file.attrs.update(case=number, key=key, until=end)
             found = {
                 "equivalent": (state.equivalent, "Pa"),
                 "high": (state.high, "Pa"),

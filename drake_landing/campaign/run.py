@@ -22,7 +22,7 @@ from drake_landing.campaign.confirm import BlockTask, confirmed_file, run_block
 from drake_landing.campaign.design import design
 from drake_landing.campaign.engine import Engine, Pool, engine
 from drake_landing.campaign.schema import Campaign
-from drake_landing.campaign.selection import screening_errors, to_confirm
+from drake_landing.campaign.selection import last_peak, screening_errors, to_confirm
 from drake_landing.campaign.setup import Prepared, airframe_key, prepare
 from drake_landing.campaign.task import (
     LandingTask,
@@ -145,12 +145,13 @@ def run_campaign(
         flown = [n for n in status.index if status[n] == "done"]
         sample = _sample(campaign, flown)
         confirm = partial(_confirm, campaign, pool_, tasks, prepared, of_case, tell)
-        missed = confirm(sample, "sample")
+        missed = confirm(_sample_peaks(sample, prepared, of_case, out), "sample")
         sample = [n for n in sample if n not in missed]
         errors, wanted = _decide(campaign, flown, sample, prepared, of_case, out)
         critical = [n for n in wanted.index if n not in {*sample, *missed}]
         critical = [int(n) for n in critical[: campaign.confirm.most]]
-        missed |= confirm(critical, "critical")
+        peaks = wanted["last_peak"].loc[critical].to_dict()
+        missed |= confirm(peaks, "critical")
         critical = [n for n in critical if n not in missed]
     result = CampaignResult(
         campaign=campaign,
@@ -226,11 +227,12 @@ def _tasks(
     return tasks
 
 
-def _has(path: Path, key: str) -> bool:
-    """A complete file of this very content."""
+def _has(path: Path, key: str, until: float = 0.0) -> bool:
+    """A complete file of this very content; of a transient, one that is long enough."""
     try:
         with h5py.File(path) as file:
-            return file.attrs.get("key") == key
+            found = file.attrs.get("key") == key
+            return bool(found and file.attrs.get("until", until) >= until)
     except OSError:
         return False
 
@@ -282,19 +284,28 @@ def _confirm(
     prepared: dict[str, Prepared],
     of_case: dict[int, str],
     tell: Reporter,
-    numbers: Sequence[int],
+    peaks: Mapping[int, float],
     what: str,
 ) -> dict[int, str]:
     """Direct transients of landings that have none yet, in blocks of one airframe.
+
+    Args:
+        peaks: landing -> last peak that its transient must hold, s; other arguments as
+            in `run_campaign`.
+        what: for the user.
 
     Returns:
         Landings that could not be integrated, and why.
     """
     key_of = {t.number: _confirmed_key(t) for t in tasks}
     folder = tasks[0].folder if tasks else Path()
-    missing = [n for n in numbers if not _has(confirmed_file(folder, n), key_of[n])]
+    ends = {n: at + campaign.confirm.tail for n, at in peaks.items()}
+    missing = [
+        n
+        for n, end in ends.items()
+        if not _has(confirmed_file(folder, n), key_of[n], until=end)
+    ]
     tell.stage(f"direct transients of {len(missing)} landings ({what})")
-    ends = {n: _end(folder, n, campaign.confirm.tail) for n in missing}
     alike: dict[tuple[str, float, str], list[int]] = {}
     for n in missing:
         kind = (of_case[n], tasks[n].step, tasks[n].scheme)
@@ -333,10 +344,18 @@ def _confirmed_key(task: LandingTask) -> str:
     return content_key("transient", task.key)
 
 
-def _end(folder: Path, number: int, tail: float) -> float:
-    """When the last element has its screened peak, and a little more, s."""
-    with h5py.File(case_file(folder, number)) as file:
-        return float(np.max(file["stress/time"], initial=0.0)) + tail
+def _sample_peaks(
+    sample: Sequence[int],
+    prepared: dict[str, Prepared],
+    of_case: dict[int, str],
+    out: Path,
+) -> dict[int, float]:
+    """Landing -> when all its elements have peaked whose error is to be measured."""
+    component = {
+        key: own.setup.elements.component.astype(str).tolist()
+        for key, own in prepared.items()
+    }
+    return {n: last_peak(out / "cases", n, component[of_case[n]]) for n in sample}
 
 
 def _decide(

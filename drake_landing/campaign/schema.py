@@ -158,7 +158,10 @@ class Confirm(Section):
         "of the screening error that decides what is confirmed", "1", 0.99, gt=0, lt=1
     )
     tail: float = number(
-        "how long a transient goes on after the last screened peak", "s", 0.05, ge=0
+        "how long a transient goes on after the last screened peak that decides",
+        "s",
+        0.05,
+        ge=0,
     )
 
 

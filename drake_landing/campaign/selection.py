@@ -7,7 +7,9 @@ stress, raised by this error, reaches the element's largest, lowered by it. All 
 landings are confirmed, those that decide for most elements first.
 
 Elements whose largest stress lies below a tenth of their component's play no part in
-the choice: they are where no margin is small.
+the choice: they are where no margin is small. Direct transients end when the last
+element has peaked for which they are made; of elements that peak later the screened
+stress counts.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -32,7 +34,7 @@ class Largest:
     Attributes:
         value: (e,) Pa; case: (e,) number of the landing, -1: none; time: (e,) s.
         high, low: (e,) extremes of the direct or principal stresses, Pa.
-        confirmed: (e,) the value comes from a direct transient.
+        confirmed: (e,) the value comes from a direct transient, which was long enough.
     """
 
     value: Float64
@@ -50,20 +52,52 @@ def screened(folder: Path, numbers: Sequence[int]) -> Iterator[tuple[int, Float6
             yield number, np.asarray(file["stress/equivalent"], float)
 
 
-def stress_of(folder: Path, number: int) -> tuple[dict[str, Float64], bool]:
-    """Best known stresses of a landing, and whether they are confirmed."""
-    path, confirmed = confirmed_file(folder, number), True
-    if not path.is_file():
-        path, confirmed = case_file(folder, number), False
-    with h5py.File(path) as file:
-        return {k: np.asarray(v, float) for k, v in file["stress"].items()}, confirmed
+@dataclass(frozen=True, kw_only=True)
+class Known:
+    """Best known stresses of a landing: of its direct transient as far as that went.
+
+    Attributes:
+        equivalent: (e,) largest equivalent stress, Pa; time: (e,) of it, s.
+        high, low: (e,) extremes of direct or principal stresses, Pa; of elements that
+            peak after the transient, the larger ones of both.
+        confirmed: (e,) the equivalent stress is that of the transient.
+    """
+
+    equivalent: Float64
+    time: Float64
+    high: Float64
+    low: Float64
+    confirmed: np.ndarray
 
 
-def equivalent_of(folder: Path, number: int) -> Float64:
-    """(e,) best known equivalent stress of a landing, Pa."""
+def known_stress(folder: Path, number: int) -> Known:
+    """Of a landing, from its one file or from both."""
+    quick, exact, covered = _both(folder, number)
+    if exact is None:
+        return Known(**quick, confirmed=covered)
+    late = ~covered & (quick["equivalent"] > exact["equivalent"])
+    return Known(
+        equivalent=np.where(late, quick["equivalent"], exact["equivalent"]),
+        time=np.where(late, quick["time"], exact["time"]),
+        high=np.where(covered, exact["high"], np.maximum(quick["high"], exact["high"])),
+        low=np.where(covered, exact["low"], np.minimum(quick["low"], exact["low"])),
+        confirmed=~late,
+    )
+
+
+def _both(
+    folder: Path, number: int
+) -> tuple[dict[str, Float64], dict[str, Float64] | None, np.ndarray]:
+    """Screened stresses, those of the transient, and which elements it covers."""
+    with h5py.File(case_file(folder, number)) as file:
+        quick = {k: np.asarray(v, float) for k, v in file["stress"].items()}
     path = confirmed_file(folder, number)
-    with h5py.File(path if path.is_file() else case_file(folder, number)) as file:
-        return np.asarray(file["stress/equivalent"], float)
+    if not path.is_file():
+        return quick, None, np.zeros(len(quick["time"]), bool)
+    with h5py.File(path) as file:
+        exact = {k: np.asarray(v, float) for k, v in file["stress"].items()}
+        until = float(file.attrs["until"])
+    return quick, exact, quick["time"] <= until
 
 
 def largest(folder: Path, numbers: Sequence[int], elements: int) -> Largest:
@@ -77,14 +111,14 @@ def largest(folder: Path, numbers: Sequence[int], elements: int) -> Largest:
         confirmed=np.zeros(elements, bool),
     )
     for number in numbers:
-        own, confirmed = stress_of(folder, number)
-        better = own["equivalent"] > found.value
-        found.value[better] = own["equivalent"][better]
+        own = known_stress(folder, number)
+        better = own.equivalent > found.value
+        found.value[better] = own.equivalent[better]
         found.case[better] = number
-        found.time[better] = own["time"][better]
-        found.confirmed[better] = confirmed
-        np.maximum(found.high, own["high"], out=found.high)
-        np.minimum(found.low, own["low"], out=found.low)
+        found.time[better] = own.time[better]
+        found.confirmed[better] = own.confirmed[better]
+        np.maximum(found.high, own.high, out=found.high)
+        np.minimum(found.low, own.low, out=found.low)
     return found
 
 
@@ -102,33 +136,35 @@ def screening_errors(
     Returns:
         Index component; columns `elements`, `landings`, `median`, `p99`, `band`,
         `worst` (of all elements and landings, over the component's largest stress in
-        that landing), `peak` (largest error of a component's largest stress, signed,
-        over it), `next` (probability that the worst error of one more landing drawn
-        likewise stays below `worst`: m/(m+1), whatever the distribution).
+        that landing; elements that peak after the transient are left out), `peak`
+        (largest error of a component's largest stress, signed, over it), `next`
+        (probability that the worst error of one more landing drawn likewise stays
+        below `worst`: m/(m+1), whatever the distribution).
     """
     names = pd.Index(pd.unique(pd.Series(component)))
     codes = pd.Categorical(component, categories=names).codes
     errors, peaks = [], []
     for number in sample:
-        with h5py.File(case_file(folder, number)) as file:
-            quick = np.asarray(file["stress/equivalent"], float)
-        with h5py.File(confirmed_file(folder, number)) as file:
-            exact = np.asarray(file["stress/equivalent"], float)
-        top = pd.Series(exact).groupby(codes).max()
-        quick_top = pd.Series(quick).groupby(codes).max()
-        scale = np.maximum(top.reindex(codes).to_numpy(), np.finfo(float).tiny)
-        errors.append((quick - exact) / scale)
-        peaks.append(quick_top / np.maximum(top, np.finfo(float).tiny) - 1.0)
+        quick, exact, covered = _both(folder, number)
+        assert exact is not None
+        own, found = (
+            pd.Series(np.where(covered, s["equivalent"], np.nan))
+            for s in (exact, quick)
+        )
+        top = own.groupby(codes).transform("max").clip(lower=np.finfo(float).tiny)
+        errors.append((found - own) / top)
+        peaks.append(found.groupby(codes).max() / top.groupby(codes).max() - 1.0)
     if not errors:
         return pd.DataFrame()
-    every = pd.DataFrame(np.abs(np.array(errors)).T).groupby(codes)
-    joined = {k: np.concatenate(list(v.to_numpy().T)) for k, v in every}
-    peak = pd.concat(peaks, axis=1)
+    every, peak = pd.concat(errors, axis=1).abs(), pd.concat(peaks, axis=1)
     rows = {}
-    for k, values in joined.items():
-        own = peak.loc[k].to_numpy()
-        rows[names[int(k)]] = {
-            "elements": len(values) // len(sample),
+    for k, name in enumerate(names):
+        values = every[codes == k].to_numpy().ravel()
+        values, own = values[np.isfinite(values)], peak.loc[k].dropna().to_numpy()
+        if not len(values):
+            continue
+        rows[name] = {
+            "elements": int((codes == k).sum()),
             "landings": len(sample),
             "median": float(np.median(values)),
             "p99": float(np.quantile(values, 0.99)),
@@ -140,6 +176,16 @@ def screening_errors(
     frame = pd.DataFrame(rows).T
     frame.index.name = "component"
     return frame
+
+
+def last_peak(folder: Path, number: int, component: Sequence[str]) -> float:
+    """When the last element has peaked that reaches a tenth of its component's, s."""
+    with h5py.File(case_file(folder, number)) as file:
+        value = pd.Series(np.asarray(file["stress/equivalent"], float))
+        time = np.asarray(file["stress/time"], float)
+    names = np.asarray(component, str)
+    top = value.groupby(names).transform("max").to_numpy(float)
+    return float(np.max(time[value.to_numpy() >= MATTERS * top], initial=0.0))
 
 
 def to_confirm(
@@ -157,25 +203,30 @@ def to_confirm(
         band: component -> error over its largest stress.
 
     Returns:
-        Index case, those that are within the band of most elements first; column
-        `elements`.
+        Index case, those that are within the band of most elements first; columns
+        `elements`, `last_peak` (s, of these elements in that landing).
     """
     first = None
     for _, value in screened(folder, numbers):
         first = value if first is None else np.maximum(first, value)
     if first is None:
-        return pd.DataFrame({"elements": []}, index=pd.Index([], name="case"))
+        empty = pd.Index([], name="case", dtype=np.int64)
+        return pd.DataFrame({"elements": [], "last_peak": []}, index=empty)
     names = pd.Series(component)
     top = pd.Series(first).groupby(names).transform("max").to_numpy()
     # Without a sample nothing is known of the error: the largest alone decides.
     error = names.map(dict(band)).fillna(0.0).to_numpy() * top
     needed = first - 2.0 * error
     matters = first >= MATTERS * top
-    counts = {
-        number: int(((value >= needed) & matters).sum())
-        for number, value in screened(folder, numbers)
-    }
-    found = pd.Series(counts, name="elements", dtype=np.int64)
+    rows = {}
+    for number, value in screened(folder, numbers):
+        decides = (value >= needed) & matters
+        if decides.any():
+            with h5py.File(case_file(folder, number)) as file:
+                time = np.asarray(file["stress/time"], float)
+            rows[number] = int(decides.sum()), float(time[decides].max())
+    found = pd.DataFrame.from_dict(
+        rows, orient="index", columns=["elements", "last_peak"]
+    )
     found.index.name = "case"
-    found = found[found > 0].sort_values(ascending=False, kind="stable")
-    return found.to_frame()
+    return found.sort_values("elements", ascending=False, kind="stable")

@@ -34,7 +34,7 @@ from drake_landing.campaign.section_envelopes import (
     SectionEnvelope,
     SectionLoads,
 )
-from drake_landing.campaign.selection import Largest, equivalent_of, largest
+from drake_landing.campaign.selection import Largest, known_stress, largest
 from drake_landing.campaign.set_cover import Cover, candidates, greedy_cover
 from drake_landing.campaign.setup import Prepared
 from drake_landing.campaign.statistics import exceedance_tables
@@ -239,7 +239,7 @@ def critical_cases(
     found = {}
     for key, best in worst.items():
         mine = [n for n in result.flown if result.of_case[n] == key]
-        stresses = ((n, equivalent_of(result.cases, n)) for n in mine)
+        stresses = ((n, known_stress(result.cases, n).equivalent) for n in mine)
         found |= candidates(stresses, best.value, tolerance)
     return greedy_cover(found, share)
 

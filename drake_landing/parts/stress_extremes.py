@@ -38,6 +38,7 @@ class StressExtremes:
         maps: of each, on extended vectors.
         extension: of vectors of the free set.
         steady: what comes to the stresses; None: nothing.
+        until: (c,) s, when each load case is over; None: none is before the last.
 
     Attributes:
         time: (t,) output times, s.
@@ -50,9 +51,13 @@ class StressExtremes:
         maps: Sequence[Map],
         extension: Extension,
         steady: Steady | None = None,
+        until: Sequence[float] | None = None,
     ) -> None:
         self._rows, self._maps, self._extension = rows, maps, extension
         self._steady = steady
+        self._until = None if until is None else np.asarray(until, float)
+        if until is not None and steady is not None and steady.apart:
+            self._until = np.append(self._until, until[0])
         self._offset = (
             [np.zeros(r.size * r.per_element) for r in rows]
             if steady is None
@@ -92,6 +97,10 @@ class StressExtremes:
         total, free = self.state.square.shape[1], window.shape[2]
         u = np.empty((self._extension.size, len(window) * total))
         lanes_of(window, total, u)
+        if self._until is not None:
+            # At rest is no extreme: every load case begins there.
+            time = self.time[first : first + len(window), None]
+            u[:free, (time > self._until).ravel()] = 0.0
         u[free:] = self._extension.dependent @ u[:free]
         share = np.tile(self._share(total), len(window))
         for rows, maps, offset, at in zip(

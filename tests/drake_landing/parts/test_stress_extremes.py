@@ -121,6 +121,24 @@ def test_extremes_are_those_of_every_instant(
     )
 
 
+@pytest.mark.parametrize("apart", [False, True])
+def test_each_load_case_ends_at_its_own_time(structure: Structure, apart: bool) -> None:
+    rng = np.random.default_rng(0)
+    window = 1e-3 * rng.standard_normal((12, 3, structure.size))
+    window[6:] *= 10.0  # what must not be seen
+    maps, ends = stress_maps(stresses(structure)), (0.55, 2.0, 0.55)
+    about = Steady(stress=maps.of(np.zeros(structure.size)), apart=apart)
+    watch = StressExtremes(maps.rows, maps.maps(), maps.extension, about, until=ends)
+    watch.begin(0.1 * np.arange(12), 3, structure.size)
+    for chunk in _chunks(window, (5, 7)):
+        watch.observe(chunk)
+    every = _expected(structure, window)[..., 0]
+    wanted = [every[:6, 0].max(0), every[:, 1].max(0), every[:6, 2].max(0)]
+    wanted += wanted[:1] * apart
+    off = np.abs(watch.state.equivalent.T - np.array(wanted)).max()
+    assert off < 1e-10 * every.max()
+
+
 def test_elements_at_a_constraint_hang_on_their_own_grids(structure: Structure) -> None:
     """The bar on the RBE3's grid has twelve freedoms, not those of four grids."""
     found = Extension.of(structure.elimination.T)
