@@ -11,7 +11,7 @@ READY := $(VENV)/.ready
 export OPENBLAS_NUM_THREADS := 1
 export MPLBACKEND := Agg
 
-.PHONY: demo fuzz test check format slow verify docs bench python clean
+.PHONY: audit demo fuzz test check format slow verify docs bench python clean
 
 demo: $(READY)
 	$(BIN)/drake-landing demo
@@ -35,6 +35,11 @@ slow: $(READY)
 
 fuzz: $(READY)
 	$(BIN)/python -m benchmarks.fuzz 1500
+
+# Known vulnerabilities of the pinned packages; asks the advisories of PyPI.
+audit: $(READY)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt pip-audit
+	$(BIN)/pip-audit -r constraints.txt --no-deps --disable-pip
 
 verify: $(READY)
 	$(BIN)/python -m benchmarks.verification
