@@ -5,6 +5,7 @@ that need them.
 """
 
 import shlex
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -263,6 +264,7 @@ def study(
     out: Annotated[Path | None, _out("out/study/<name>")] = None,
 ) -> None:
     """The paper's studies: numbers of modes, gear topologies, the full aircraft."""
+    from drake_landing.interrupts import told_when_interrupted
     from drake_landing.progress import reporter
     from drake_landing.reference.studies import PLANS, run_study
     from drake_landing.reference.studies.findings import findings
@@ -275,7 +277,9 @@ def study(
             + nearest(name, PLANS)
         )
     folder = claim(out or Path("out", "study", name), f"study {name}")
-    with reporter() as progress:
+    again = "" if out is None else f" --out {shlex.quote(str(out))}"
+    kept = f"landings and transients so far are kept; go on: study {name}{again}"
+    with told_when_interrupted(lambda: kept), reporter() as progress:
         done = run_study(PLANS[name], folder, progress)
     for row in findings(done).to_dict("records"):
         print(f"{row['finding']}: {row['figures']} -- {row['holds']}")
@@ -435,15 +439,32 @@ def _default_folder(case: "Case") -> Path:
     return Path("out", case.name)
 
 
+def _kept(case: "Case", folder: Path, out: Path | None, began: float) -> str:
+    """What a run leaves that began at a time (s of the epoch) and is interrupted."""
+    table = folder / "attachment_loads.csv"
+    landed = table.is_file() and table.stat().st_mtime >= began
+    tables = f"; tables of the landing are in {folder}" if landed else ""
+    again = "drake-landing demo"
+    if Path(case.places.file).is_file():
+        again = f"drake-landing run {shlex.quote(case.places.file)}"
+    again += "" if out is None else f" --out {shlex.quote(str(out))}"
+    return f"modes found so far are kept for the next run{tables}; again: {again}"
+
+
 def _run(
     case: "Case", out: Path | None, *, practices: bool = False, pdf: bool = False
 ) -> None:
+    from drake_landing.interrupts import told_when_interrupted
     from drake_landing.process.run import run_case
     from drake_landing.progress import reporter
     from fem.files.folders import claim
 
+    began = time.time()
     folder = claim(out or _default_folder(case), f"run {case.name}")
-    with reporter() as progress:
+    with (
+        told_when_interrupted(lambda: _kept(case, folder, out, began)),
+        reporter() as progress,
+    ):
         result = run_case(case, folder, progress, practices=practices)
     if pdf:
         from drake_landing.report.pdf import write_pdf

@@ -14,6 +14,7 @@ before it is run.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -30,15 +31,29 @@ from fem.algebra.orthonormal import orthonormal_rest
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
+Int64 = npt.NDArray[np.int64]
 
 _MOST = 96  # vectors
 _SHIFT = (2.0 * np.pi * 30.0) ** 2  # 1/s²: amid the frequencies that gears excite
 _DEPENDENT = 1e-7  # what is left of a vector that others span
 
 
+@dataclass(frozen=True, kw_only=True)
+class LoadModel(ModalModel):
+    """Rigid-body modes and shapes that gear loads excite.
+
+    Attributes:
+        seat: (n,) grid that holds most of the kinetic energy of each.
+        share: (n,) of the kinetic energy that it holds.
+    """
+
+    seat: Int64
+    share: Float64
+
+
 def load_model(
     structure: Structure, aircraft: Aircraft, cache: Cache | None = None
-) -> ModalModel:
+) -> LoadModel:
     """Rigid-body modes and shapes that gear loads excite, at the aircraft's nodes.
 
     Args:
@@ -59,25 +74,42 @@ def load_model(
             freedoms=structure.size,
         )
         found = modal_model(structure, basis, aircraft)
+        every = np.hstack([basis.rigid_modes(structure.mass), shape])
+        seat, share = _seats(structure, every)
         return {
             "frequency_hz": found.frequency_hz,
             "damping": found.damping,
             "monitor": found.monitor,
             "attachment": np.array([found.attachment[n] for n in nodes]),
+            "seat": seat,
+            "share": share,
         }
 
     b = structure.damping
     key = content_key(
         *(structure.stiffness, structure.mass, b.other),
-        *(b.stiffness_factor, b.mass_factor, pattern, points, _MOST, _SHIFT),
+        *(b.stiffness_factor, b.mass_factor, pattern, points, _MOST, _SHIFT, "seats"),
     )
     arrays = (cache or Cache(None)).arrays("load-shapes", key, build)
-    return ModalModel(
+    return LoadModel(
+        seat=arrays["seat"],
+        share=arrays["share"],
         frequency_hz=arrays["frequency_hz"],
         damping=arrays["damping"],
         monitor=arrays["monitor"],
         attachment=dict(zip(nodes, arrays["attachment"])),
     )
+
+
+def _seats(structure: Structure, shape: Float64) -> tuple[Int64, Float64]:
+    """Grid with most of the kinetic energy of each of the shapes (f, n), its share."""
+    moved = structure.elimination.T @ shape
+    energy = np.asarray(structure.matrices.mass @ moved) * moved
+    grids = structure.points.grid_id
+    of_grid = energy[: 6 * len(grids)].reshape(len(grids), 6, -1).sum(axis=1)
+    most = of_grid.argmax(axis=0)
+    share = np.take_along_axis(of_grid, most[None], axis=0)[0] / energy.sum(axis=0)
+    return grids[most], share
 
 
 def load_shapes(structure: Structure, loads: Float64) -> tuple[Float64, Float64]:

@@ -5,7 +5,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from drake_landing.campaign.compare import compare_campaigns
+from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
+from drake_landing.campaign.design import design
 from drake_landing.campaign.engine import Pool
 from drake_landing.campaign.run import (
     CampaignResult,
@@ -14,7 +16,9 @@ from drake_landing.campaign.run import (
     run_campaign,
 )
 from drake_landing.campaign.schema import Campaign
+from drake_landing.campaign.task import case_file
 from drake_landing.files import write_csv
+from drake_landing.interrupts import told_when_interrupted
 from drake_landing.process.run import run_case
 from drake_landing.progress import reporter
 from fem.errors import InputError
@@ -40,7 +44,10 @@ def campaign_command(
     folder = claim(out or Path("out", "campaign", campaign.name), f"campaign {file}")
     if reports:
         _reports(campaign, folder, reports)
-    with reporter() as progress:
+    with (
+        told_when_interrupted(lambda: _kept(campaign, file, folder, out)),
+        reporter() as progress,
+    ):
         result = run_campaign(campaign, folder, pool, progress)
         decks = write_critical_decks(result)
     print(_summary(result, len(decks)))
@@ -50,6 +57,19 @@ def campaign_command(
             print(f"\n{name}, before and after:\n{table.head(10).to_string()}")
     print(f"\npage: {folder / 'campaign.html'}")
     return len(result.failed)
+
+
+def _kept(campaign: Campaign, file: Path, folder: Path, out: Path | None) -> str:
+    """How far a campaign got, and how to go on with it."""
+    cases, numbers = folder / "cases", design(campaign).index
+    flown = sum(case_file(cases, int(n)).is_file() for n in numbers)
+    confirmed = sum(confirmed_file(cases, int(n)).is_file() for n in numbers)
+    given = "" if out is None else f" --out {shlex.quote(str(out))}"
+    return (
+        f"{flown} of {len(numbers)} landings and {confirmed} direct transients are "
+        f"done and kept in {folder}; to go on: drake-landing campaign "
+        f"{shlex.quote(str(file))}{given}"
+    )
 
 
 _USUAL = 1.5  # s, of a landing that goes on until it has shown its extremes

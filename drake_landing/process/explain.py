@@ -93,7 +93,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
                 structure, case.airframe, aircraft, aircraft.scenario
             )
             try:
-                step = expected_step_error(case, aircraft, shapes, pulses)
+                step = expected_step_error(case, aircraft, structure, shapes, pulses)
             except StepRefused as error:  # said when all else has been said
                 step, refused = error.found, error
             truncated = _truncated(case, shapes, pulses)

@@ -93,7 +93,7 @@ def _run_case(case: Case, out: Path, stages: Stages, practices: bool) -> Process
     stages.begin("expected error of the time step")
     shapes = load_model(structure, aircraft, cache)
     pulses = expected_pulses(structure, case.airframe, aircraft, aircraft.scenario)
-    step = expected_step_error(case, aircraft, shapes, pulses)
+    step = expected_step_error(case, aircraft, structure, shapes, pulses)
     remarks = (*remarks, *step.remarks, *aircraft.scenario.remarks)
     stages.begin("eigenmodes")
     airframe = load_airframe(

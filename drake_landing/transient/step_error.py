@@ -15,13 +15,16 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
+from drake_landing.airframe.load_shapes import LoadModel
 from drake_landing.airframe.pulses import GearPulses
 from drake_landing.airframe.relevance import ModalModel, modal_accelerations
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import resample, time_grid
 from drake_landing.transient.response import SCHEMES
+from drake_landing.transient.step_cause import StepCause, component_at
 from fem.algebra.damping import Damping
 from fem.errors import InputError
+from fem.model.structure import Structure
 from fem.response.direct import direct_transient
 from fem.response.observation import Observation
 from fem.response.system import sampled_load
@@ -56,6 +59,9 @@ class StepError:
         step: s.
         error: of the worst component, over its peak.
         where: that component, such as `tip, z`.
+        cause: what most of it comes from; None: it is small.
+        about: where `enough` is None, the step that would do by the error's square
+            law, s.
         stands_in: the pulses are those of a touchdown, and the aircraft rolls: neither
             warned of nor refused.
         enough: the largest of common steps with an error below `WARNED`, s; the step
@@ -66,6 +72,8 @@ class StepError:
     error: float
     where: str
     enough: float | None
+    cause: StepCause | None = None
+    about: float | None = None
     stands_in: bool = False
 
     def __str__(self) -> str:
@@ -77,9 +85,10 @@ class StepError:
             return f"{text} if it touched down; less as it rolls"
         if self.error <= WARNED:
             return text
-        if self.enough is None:
-            return f"{text}; no step of {STEPS[-1]:g} s or more brings that below 2 %"
-        return f"{text}; {self.enough:g} s would bring that below 2 %"
+        if self.enough is not None:
+            return f"{text}; {self.enough:g} s would bring that below 2 %"
+        about = f"; about {self.about:.1g} s would" if self.about else ""
+        return f"{text}; {STEPS[-1]:g} s does not bring that below 2 %{about}"
 
     @property
     def _warns(self) -> bool:
@@ -88,11 +97,27 @@ class StepError:
     @property
     def remarks(self) -> tuple[str, ...]:
         """Where it is worth a warning."""
-        return (f"transient.step: a {self}",) if self._warns else ()
+        why = f": {self.cause}" if self.cause else ""
+        return (f"transient.step: a {self}{why}",) if self._warns else ()
+
+    @property
+    def remedies(self) -> str:
+        """What a user can change, in words."""
+        step = self.enough or self.about
+        smaller = f"'step: {step:.1g}'" if step else "a smaller step"
+        accept = f"'accept: {np.ceil(100 * self.error):.0f}' (%) beside the step"
+        if self.cause is None or self.cause.slower > 0.5 * self.error:
+            return f"{smaller}; or {accept}"
+        point = self.where.split(",")[0]
+        return (
+            f"{smaller}; or {accept}, where that motion is no matter (the report has "
+            f"peaks without it, low-passed); or another grid for the point '{point}'; "
+            "or airframe.damping, which such motions have in truth"
+        )
 
 
 def step_error(
-    model: ModalModel,
+    model: LoadModel,
     pulses: Sequence[GearPulses],
     points: Sequence[str],
     step: float,
@@ -109,23 +134,42 @@ def step_error(
     """
     exact = _exact(model, pulses, min([pulses[0].step, *STEPS]))
 
-    def error(h: float) -> tuple[float, str]:
-        return _worst(exact, _by_scheme(model, pulses, h, scheme), points)
+    def error(h: float) -> _Extreme:
+        return _worst(exact, _by_scheme(model, pulses, h, scheme), model)
 
-    found, where = error(step)
-    smaller = (h for h in STEPS if h < step and error(h)[0] <= WARNED)
-    enough = step if found <= WARNED else next(smaller, None)
-    return StepError(step=step, error=found, where=where, enough=enough)
+    found = error(step)
+    name = f"{points[found.point].replace('_', ' ')}, {'xyz'[found.axis]}"
+    good = StepError(step=step, error=found.error, where=name, enough=step)
+    if found.error <= WARNED:
+        return good
+    h, smallest = step, found
+    for h in (h for h in STEPS if h < step):
+        smallest = error(h)
+        if smallest.error <= WARNED:
+            break
+    enough = smallest.error <= WARNED
+    return replace(
+        good,
+        enough=h if enough else None,
+        about=None if enough else h * float(np.sqrt(WARNED / smallest.error)),
+        cause=_cause(
+            model, exact, _by_scheme(model, pulses, step, scheme), found, step
+        ),
+    )
 
 
 def expected_step_error(
-    case: Case, aircraft: Aircraft, model: ModalModel, pulses: Sequence[GearPulses]
+    case: Case,
+    aircraft: Aircraft,
+    structure: Structure,
+    model: LoadModel,
+    pulses: Sequence[GearPulses],
 ) -> StepError:
     """Of the step of a case.
 
     Args:
         case: its step and scheme.
-        aircraft: of the case.
+        aircraft, structure: of the case.
         model: of `load_model`.
         pulses: of `expected_pulses`.
 
@@ -141,12 +185,14 @@ def expected_step_error(
     )
     if aircraft.scenario.start != "touchdown":
         return replace(found, stands_in=True)
+    if cause := found.cause:
+        component = component_at(structure, case, cause.grid)
+        found = replace(found, cause=replace(cause, component=component))
     accepted = case.transient.accept
     if found.error > max(REFUSED, accepted / 100.0):
         raise StepRefused(
-            f"transient.step: found a {found}; expected at most "
-            f"{max(100 * REFUSED, accepted):g} %, a smaller step, or 'accept: "
-            f"{np.ceil(100 * found.error):.0f}' (%) beside the step",
+            f"transient.step: found a {found}: {found.cause}. Expected at most "
+            f"{max(100 * REFUSED, accepted):g} %: {found.remedies}",
             found,
         )
     return found
@@ -156,16 +202,58 @@ def _percent(share: float) -> str:
     return f"{share:.1%}" if share < 0.1 else f"{share:.0%}"
 
 
-def _worst(exact: Float64, found: Float64, points: Sequence[str]) -> tuple[float, str]:
-    """The largest error of an extreme, and its component; (t, p, 3) each."""
+@dataclass(frozen=True, kw_only=True)
+class _Extreme:
+    """The error of an extreme over its peak, and where: point, axis 0 to 2."""
+
+    error: float
+    point: int
+    axis: int
+
+
+def _worst(exact: Float64, found: Float64, model: ModalModel) -> _Extreme:
+    """The largest error of an extreme; (t, n) modal accelerations each."""
+    exact, found = (
+        np.einsum("tn,pan->tpa", modal, model.monitor, optimize=True)
+        for modal in (exact, found)
+    )
     peak = np.abs(exact).max(axis=0)
-    extremes = [np.stack([a.max(axis=0), a.min(axis=0)]) for a in (exact, found)]
-    missed = np.abs(extremes[1] - extremes[0]).max(axis=0)
+    missed = np.abs(_extremes(found) - _extremes(exact)).max(axis=0)
     counts = peak > _SMALL * peak.max()
     error = np.where(counts, missed / np.where(counts, peak, 1.0), 0.0)
     p, axis = np.unravel_index(int(np.argmax(error)), error.shape)
-    where = f"{points[p].replace('_', ' ')}, {'xyz'[axis]}"
-    return float(error[p, axis]), where
+    return _Extreme(error=float(error[p, axis]), point=int(p), axis=int(axis))
+
+
+def _cause(
+    model: LoadModel, exact: Float64, found: Float64, worst: _Extreme, step: float
+) -> StepCause:
+    """The shape that adds most to an error, slower ones before it.
+
+    Args:
+        model: shapes by ascending frequency.
+        exact, found: (t, n) modal accelerations.
+        worst: the error.
+        step: s.
+    """
+    seen = model.monitor[worst.point, worst.axis]
+    extremes = [_extremes(np.cumsum(modal * seen, axis=1)) for modal in (exact, found)]
+    missed = np.abs(extremes[1] - extremes[0]).max(axis=0)
+    error = missed / np.abs(extremes[0][:, -1]).max()
+    shape = int(np.argmax(np.diff(error, prepend=0.0)))
+    f = float(model.frequency_hz[shape])
+    return StepCause(
+        frequency_hz=f,
+        steps=1.0 / (f * step) if f else np.inf,
+        grid=int(model.seat[shape]),
+        share=float(model.share[shape]),
+        slower=float(error[shape - 1]) if shape else 0.0,
+    )
+
+
+def _extremes(values: Float64) -> Float64:
+    """(2, ...) largest and smallest over time, the first axis."""
+    return np.stack([values.max(axis=0), values.min(axis=0)])
 
 
 def _force(model: ModalModel, pulses: Sequence[GearPulses]) -> Float64:
@@ -179,21 +267,22 @@ def _force(model: ModalModel, pulses: Sequence[GearPulses]) -> Float64:
 
 
 def _exact(model: ModalModel, pulses: Sequence[GearPulses], step: float) -> Float64:
-    """(t, p, 3) for pulses that are linear between their samples."""
-    force = _force(model, pulses)
-    h = pulses[0].step
+    """(t, n) modal accelerations under the curve that `_by_scheme` takes its loads of.
+
+    Linear between samples alone, a pulse would have kinks, and stiff motions would feel
+    them; no step of the scheme could then come near.
+    """
+    force, h = _force(model, pulses), pulses[0].step
     coarse = h * np.arange(len(force))
     fine = h / max(round(h / step), 1)
-    time = fine * np.arange((len(force) - 1) * round(h / fine) + 1)
-    between = np.stack([np.interp(time, coarse, f) for f in force.T], axis=1)
-    modal = modal_accelerations(model.frequency_hz, model.damping, between, fine)
-    return np.einsum("tn,pan->tpa", modal, model.monitor, optimize=True)
+    loads = resample(coarse, force, time_grid(fine, float(coarse[-1])))
+    return modal_accelerations(model.frequency_hz, model.damping, loads, fine)
 
 
 def _by_scheme(
     model: ModalModel, pulses: Sequence[GearPulses], step: float, scheme: str
 ) -> Float64:
-    """(t, p, 3) as the direct transient computes them."""
+    """(t, n) modal accelerations as the direct transient computes them."""
     force, h = _force(model, pulses), pulses[0].step
     coarse = h * np.arange(len(force))
     grid = time_grid(step, float(coarse[-1]))
@@ -201,8 +290,7 @@ def _by_scheme(
     ahead = np.append(grid, grid[-1] + step * np.array([1.0, 2.0]))
     held = np.concatenate([loads, loads[-1:], loads[-1:]])
     n = len(model.frequency_hz)
-    monitor = model.monitor.reshape(-1, n)
-    watched = Observation("acceleration", sp.csr_matrix(monitor))
+    watched = Observation("acceleration", sp.csr_matrix(sp.eye_array(n)))
     direct_transient(
         sp.diags_array((2.0 * np.pi * model.frequency_hz) ** 2),
         sp.eye_array(n),
@@ -212,4 +300,4 @@ def _by_scheme(
         observers=[watched],
         scheme=SCHEMES[scheme](),
     )
-    return watched.values[:, 0].reshape(len(grid), -1, 3)
+    return watched.values[:, 0]

@@ -328,7 +328,10 @@ def test_an_interrupt_is_one_line_and_leaves_nothing_half_written(
     out, message = run.communicate(timeout=60)
     assert run.returncode == 130
     assert out == ""
-    assert message.splitlines()[-1] == "interrupted"
+    *_, kept, last = message.splitlines()
+    assert last == "interrupted"
+    assert kept.startswith("modes found so far are kept for the next run; again: ")
+    assert kept.endswith(f"drake-landing run {case} --out {tmp_path / 'o'}")
     assert "Traceback" not in message
     assert [p.name for p in (tmp_path / "o").rglob("*part*")] == []
     assert not (tmp_path / "o" / "report.html").exists()

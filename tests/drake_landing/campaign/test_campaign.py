@@ -14,6 +14,7 @@ import psutil
 import pytest
 
 import drake_landing
+from drake_landing.campaign import command
 from drake_landing.campaign.cases import load_campaign
 from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
@@ -356,3 +357,28 @@ def test_names_of_the_package_run_a_campaign(result: CampaignResult) -> None:
     assert set(result.tables) >= {"cases", "stress", "components", "section_hulls"}
     stored = pd.read_parquet(result.folder / "tables" / "stress.parquet")
     pd.testing.assert_frame_equal(stored, result.tables["stress"], check_dtype=False)
+
+
+def test_an_interrupt_says_what_is_done_and_how_to_go_on(
+    result: CampaignResult,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    def interrupted(_campaign: object, folder: Path, *_more: object) -> None:
+        shutil.copytree(result.cases, folder / "cases")
+        case_file(folder / "cases", 1).unlink()
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command, "run_campaign", interrupted)
+    file = Path(result.campaign.places.file)
+    with pytest.raises(KeyboardInterrupt):
+        command.campaign_command(
+            result.campaign, file, tmp_path / "my out", Pool(scheduler="here"), [], None
+        )
+    done = len(result.sample) + len(result.critical)
+    assert capsys.readouterr().err.splitlines()[-1] == (
+        f"3 of 4 landings and {done} direct transients are done and kept in "
+        f"{tmp_path / 'my out'}; to go on: drake-landing campaign {file} --out "
+        f"'{tmp_path / 'my out'}'"
+    )

@@ -1,5 +1,6 @@
 """What a time step costs is known before the transient."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,11 @@ from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.explain import explain
 from drake_landing.transient.response import transient_response
-from drake_landing.transient.step_error import step_error
+from drake_landing.transient.step_error import (
+    StepRefused,
+    expected_step_error,
+    step_error,
+)
 from fem.errors import InputError
 from tests.drake_landing.one_aircraft import SI, case_of
 
@@ -94,3 +99,38 @@ def test_large_steps_are_warned_of_and_then_refused(tmp_path: Path) -> None:
     good = explain(case_with(tmp_path, "step: 5.0e-4"), tmp_path)
     assert "peak accelerations expected to be" in good
     assert "transient.step" not in good
+
+
+def test_a_stiff_local_motion_is_named_with_remedies(tmp_path: Path) -> None:
+    """A gear's grid of 5 kg on a spring of 400 Hz: k = (2 pi f)² m."""
+    hz, mass = 400.0, 5.0
+    k = (2.0 * np.pi * hz) ** 2 * mass
+    fitting = (
+        f"GRID,99,,3.9,1.2,0.1\nCONM2,99,99,,{mass}\n"
+        f"CELAS2,99,{k:.1f},11,3,99,3\nRBAR,98,11,99,123456,,,12456"
+    )
+    case = case_of(
+        tmp_path,
+        replace(SI, more={"fitting": fitting}),
+        ("tip: 12}", "tip: 12, gear: 99}"),
+        ("attachment_node: 11", "attachment_node: 99"),
+        ("step: 5.0e-4", "step: 1.0e-3"),
+    )
+    aircraft = prepare_aircraft(case, tmp_path)
+    structure = aircraft.structure()
+    shapes = load_model(structure, aircraft)
+    pulses = expected_pulses(structure, case.airframe, aircraft, case.scenario)
+    with pytest.raises(StepRefused) as refused:
+        expected_step_error(case, aircraft, structure, shapes, pulses)
+    found = refused.value.found
+    assert found.cause is not None
+    # Somewhat above, as the airframe yields.
+    assert found.cause.frequency_hz == pytest.approx(hz, rel=0.03)
+    assert found.cause.grid == 99
+    assert found.cause.share > 0.9
+    assert found.cause.slower < 0.1 < 0.4 < found.error
+    assert "is at grid 99" in str(refused.value)
+    assert "another grid for the point 'gear'" in str(refused.value)
+    # Pulses between their samples are no matter: a step that is small enough is found.
+    assert found.enough == 1e-4
+    assert "'step: 0.0001'" in str(refused.value)
