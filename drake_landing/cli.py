@@ -264,8 +264,7 @@ def study(
     out: Annotated[Path | None, _out("out/study/<name>")] = None,
 ) -> None:
     """The paper's studies: numbers of modes, gear topologies, the full aircraft."""
-    from drake_landing.interrupts import told_when_interrupted
-    from drake_landing.progress import reporter
+    from drake_landing.progress import reporter, told_when_interrupted
     from drake_landing.reference.studies import PLANS, run_study
     from drake_landing.reference.studies.findings import findings
     from fem.errors import InputError, nearest
@@ -454,9 +453,8 @@ def _kept(case: "Case", folder: Path, out: Path | None, began: float) -> str:
 def _run(
     case: "Case", out: Path | None, *, practices: bool = False, pdf: bool = False
 ) -> None:
-    from drake_landing.interrupts import told_when_interrupted
     from drake_landing.process.run import run_case
-    from drake_landing.progress import reporter
+    from drake_landing.progress import reporter, told_when_interrupted
     from fem.files.folders import claim
 
     began = time.time()

@@ -5,7 +5,7 @@ Work is a sequence of stages; a stage may report which share of it is done.
 
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Protocol, TextIO
 
@@ -95,3 +95,17 @@ def reporter(stream: TextIO | None = None) -> Iterator[Reporter]:
         bar = TerminalBar(progress)
         yield bar
         bar.finish()
+
+
+@contextmanager
+def told_when_interrupted(kept: Callable[[], str]) -> Iterator[None]:
+    """On an interrupt a line on standard error: what is kept, and how to go on.
+
+    Args:
+        kept: makes the line, at the moment of the interrupt, which goes on.
+    """
+    try:
+        yield
+    except KeyboardInterrupt:
+        print(kept(), file=sys.stderr)
+        raise

@@ -18,9 +18,8 @@ from drake_landing.campaign.run import (
 from drake_landing.campaign.schema import Campaign
 from drake_landing.campaign.task import case_file
 from drake_landing.files import write_csv
-from drake_landing.interrupts import told_when_interrupted
 from drake_landing.process.run import run_case
-from drake_landing.progress import reporter
+from drake_landing.progress import reporter, told_when_interrupted
 from fem.errors import InputError
 from fem.files.folders import claim
 

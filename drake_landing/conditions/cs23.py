@@ -20,9 +20,16 @@ _LANDING = (needs_mains, needs_largest)
 def _needs_spin_up(aircraft: GroundAircraft) -> str:
     """What Appendix D asks for."""
     if aircraft.stall_speed is None:
-        return "no stall speed in the landing (conditions.stall_speed)"
+        return "no stall speed in the landing (set conditions.stall_speed)"
     known = all(g.time_to_peak is not None for g in aircraft.mains)
-    return "" if known else "the time to the vertical peak is not known"
+    return (
+        ""
+        if known
+        else (
+            "the time to the vertical peak is not known (landings find it: set no "
+            "conditions.vertical)"
+        )
+    )
 
 
 CS23: tuple[Paragraph, ...] = (

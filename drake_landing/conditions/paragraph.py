@@ -10,8 +10,15 @@ Mark = Literal["read", "secondary", "memory", "-"]
 Cases = Callable[[GroundAircraft], Iterator[BookCase]]
 Need = Callable[[GroundAircraft], str]
 
-LARGEST_UNKNOWN = "the largest vertical loads of the landing are not known"
-TAIL_DOWN_UNKNOWN = "the largest vertical loads tail-down are not known"
+_ROLE = "gears are told by place; else set conditions.roles.<gear>"
+LARGEST_UNKNOWN = (
+    "the largest vertical loads of the landing are not known (set conditions.vertical "
+    "of every gear, or of none)"
+)
+TAIL_DOWN_UNKNOWN = (
+    "the largest vertical loads tail-down are not known (landings find them: set no "
+    "conditions.vertical)"
+)
 ANY: tuple[Weight, ...] = ("landing", "take_off")
 
 
@@ -52,35 +59,38 @@ class Paragraph:
         """Why the static cases cannot be built; empty: they can."""
         if aircraft.design not in self.design:
             words = {"landing": "design landing weight", "take_off": "ramp weight"}
-            return f"asked for at the {words[self.design[0]]}"
+            return (
+                f"asked for at the {words[self.design[0]]}: set 'conditions.weight: "
+                f"{self.design[0]}' with an airframe of that weight"
+            )
         return next((text for need in self.needs if (text := need(aircraft))), "")
 
 
 def needs_mains(aircraft: GroundAircraft) -> str:
     """Main gears."""
-    return "" if aircraft.mains else "no main gear"
+    return "" if aircraft.mains else f"no main gear ({_ROLE}: main)"
 
 
 def needs_brakes(aircraft: GroundAircraft) -> str:
     """Brakes on a main gear."""
     braked = any(gear.brake_torque for gear in aircraft.mains)
-    return "" if braked else "no main gear has brakes (gears.<name>.brake)"
+    return "" if braked else "no main gear has brakes (set gears.<name>.brake)"
 
 
 def needs_nose(aircraft: GroundAircraft) -> str:
     """A nose gear."""
-    return "" if aircraft.nose else "no nose gear"
+    return "" if aircraft.nose else f"no nose gear ({_ROLE}: nose, where it has one)"
 
 
 def needs_tail(aircraft: GroundAircraft) -> str:
     """A tail wheel."""
-    return "" if aircraft.tail else "no tail wheel"
+    return "" if aircraft.tail else f"no tail wheel ({_ROLE}: tail, where it has one)"
 
 
 def needs_sides(aircraft: GroundAircraft) -> str:
     """Main gears on both sides."""
     sides = {aircraft.side(gear) for gear in aircraft.mains}
-    return "" if {-1.0, 1.0} <= sides else "no main gears on both sides"
+    return "" if {-1.0, 1.0} <= sides else "no main gears on both sides (gears)"
 
 
 def needs_largest(aircraft: GroundAircraft) -> str:
@@ -98,13 +108,17 @@ def needs_tail_down(aircraft: GroundAircraft) -> str:
 def needs_steering(aircraft: GroundAircraft) -> str:
     """Torque of the steering."""
     known = aircraft.steering_torque is not None
-    return "" if known else "no steering torque (conditions.steering_torque)"
+    return "" if known else "no steering torque (set conditions.steering_torque)"
 
 
 def needs_several_wheels(aircraft: GroundAircraft) -> str:
     """A main gear with more than one wheel."""
     several = any(gear.wheels > 1 for gear in aircraft.mains)
-    return "" if several else "no main gear has more than one wheel"
+    return (
+        ""
+        if several
+        else "no main gear has more than one wheel (gears.<name>.wheel_offsets)"
+    )
 
 
 def largest(gear: Gear, *, of: str = "largest") -> float:
