@@ -12,6 +12,7 @@ from benchmarks.verification import (
     curved_shells,
     drilling_shells,
     drop_tests,
+    joints,
     macneal_harder,
     nafems_beams,
     nafems_plates,
@@ -120,6 +121,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         drilling_shells.cook_membrane,
         drilling_shells.sheet_cantilever,
     ),
+    "Joints": (joints.lap_joint,),
     "Linear buckling": (
         buckling.euler_columns,
         buckling.beams_sideways,

@@ -32,6 +32,7 @@ GRID,15,,.7,0.,.25
 GRID,16,,1.25,.5,.1
 GRID,17,,.4,1.15,.2
 GRID,18,,-.1,.5,.1
+GRID,19,,.6,.5,.1
 PSHELL,1,1,.02,1,,1
 PSHELL,2,1,.05,1,,1
 PCOMP,3,,,,,,,,+
@@ -90,6 +91,14 @@ CONROD,142,1,7,1,1.-3,1.-7
 CTUBE,143,8,1,7
 CBUSH,144,9,1,7,0.,1.,0.
 CSHEAR,151,10,1,2,3,4
+PFAST,14,.1,,,1.+6,2.+6,3.+6,1.+4,+
++,2.+4,3.+4
+PWELD,15,1,.1
+CFAST,161,14,ELEM,101,102,,,,+
++,.6,.5,.1
+CWELD,162,15,19,ELEMID,,,,,+
++,101,102
+CWELD,163,15,,ALIGN,1,7
 ENDDATA
 """
 
@@ -101,7 +110,7 @@ _WHAT = {
     116: "curved, offset",
     112: "offset", 113: "composite, offset",
     132: "offset", 133: "offset, pinned", 134: "tapered, offset, shear centre offset",
-    151: "warped",
+    151: "warped", 161: "ELEM", 162: "ELEMID", 163: "ALIGN",
 }  # fmt: skip
 
 

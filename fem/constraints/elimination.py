@@ -16,6 +16,7 @@ from scipy.sparse.csgraph import connected_components
 
 from fem.arrays import Float64, Int64
 from fem.constraints.equations import Equations, concatenate
+from fem.constraints.feet import read_feet
 from fem.constraints.mpc import read_mpc
 from fem.constraints.rbe3 import read_rbe3
 from fem.constraints.rigid import read_rbar, read_rbe2
@@ -160,7 +161,7 @@ def eliminate(
 
 
 def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equations]:
-    """Equations of all rigid elements and of the MPC set `mpc`, as the cards give them.
+    """Equations of rigid elements, feet of connectors and MPC set `mpc`, as given.
 
     Raises:
         InputError: bad references, all of them.
@@ -172,6 +173,7 @@ def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equatio
         lambda: read_rbar(deck, points),
         lambda: read_rbe3(deck, points),
         lambda: read_mpc(deck, points, mpc),
+        lambda: read_feet(deck, points),
     ):
         try:
             equations += read()

@@ -88,8 +88,6 @@ def reason(name: str) -> str:
 # are passed over.
 PROPERTY_OF: dict[str, str] = {
     "CBEAM3": "PBEAM3",
-    "CFAST": "PFAST",
-    "CWELD": "PWELD",
     "CSEAM": "PSEAM",
     "CBUSH2D": "PBUSH2D",
     "CAABSF": "PAABSF",

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from fem.deck.records import CARDS
 from fem.elements.block import ElementBlock
+from fem.elements.connectors.reader import connector_notices
 from fem.elements.lines.beam import beam_notices
 from fem.elements.nonstructural_mass import add_nonstructural_mass
 from fem.elements.scalars.gap import gap_notices
@@ -70,4 +71,5 @@ def element_notices(deck: "Deck") -> list[str]:
         *strength_notices(deck),
         *solid_notices(deck),
         *gap_notices(deck),
+        *connector_notices(deck),
     ]

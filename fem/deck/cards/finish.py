@@ -58,6 +58,16 @@ def pbend(columns: Columns, problems: Problems) -> None:
     columns["a"] = [float(area) for area in columns["a"]]
 
 
+def fastener(columns: Columns, problems: Problems) -> None:
+    """The sides are properties or elements; a diameter is needed to find them."""
+    for row, form in enumerate(columns["form"]):
+        if form not in ("PROP", "ELEM"):
+            problems.append(
+                f"{_place(columns, row)}: CFAST {columns['eid'][row]} field TYPE: "
+                f"found '{form}', expected PROP or ELEM"
+            )
+
+
 def beam(columns: Columns, problems: Problems) -> None:
     """OFFT is a name; a real number there is BIT, which belongs to p-elements.
 

@@ -1,13 +1,16 @@
 """Connectors: axial bushings, gaps, general elements."""
 
 from fem.deck import conversions
-from fem.deck.cards import finish, general_element
-from fem.deck.records.card import Card, Element, Result, Topology
+from fem.deck.cards import finish, general_element, welds
+from fem.deck.records.card import Card, Element, Op2, Result, Topology
+from fem.deck.records.lines import BAR_FORCE
+from fem.deck.records.scalars import BUSH_FORCE
 
 _GROUP = "Connectors"
 _BETWEEN = Topology(kind="spring", grids=("ga", "gb"), corners=2, edges=((0, 1),))
 AXIAL_FORCE = ("axial_force",)
 AXIAL_STRESS = ("axial",)
+WELD_FORCE = BAR_FORCE
 GAP_FORCE = ("fx", "sfy", "sfz", "u", "v", "w")
 
 RECORDS = (
@@ -77,5 +80,51 @@ RECORDS = (
         ids="own",
         convert=conversions.general,
         element=Element(reader="scalars.general:read_genel"),
+    ),
+    # ida and idb: properties (PROP) or elements (ELEM).
+    Card(
+        name="CFAST",
+        group=_GROUP,
+        fields="eid:i pid:i=eid>PFAST form:s ida:i idb:i gs:i=0>GRID? ga:i=0>GRID? "
+        "gb:i=0>GRID? xs:f=nan[L] ys:f=nan[L] zs:f=nan[L]",
+        finish=finish.fastener,
+        ids="own",
+        element=Element(
+            reader="connectors.reader:read_cfast",
+            results=(
+                Result(
+                    kinds=("force",),
+                    columns=BUSH_FORCE,
+                    remark="at the middle, axes of PFAST",
+                ),
+            ),
+        ),
+    ),
+    Card(
+        name="PFAST",
+        group=_GROUP,
+        fields="pid:i d:f[L] mcid:i=-1>CORD mflag:i=0 kt1:f=0.[M] kt2:f=0.[M] "
+        "kt3:f=0.[M] kr1:f=0.[ML2] kr2:f=0.[ML2] kr3:f=0.[ML2] mass:f=0.[M] ge:f=0.",
+        ids="own",
+    ),
+    # ida and idb by form: properties, elements; gas, gbs: corner grids (GRIDID).
+    Card(
+        name="CWELD",
+        group=_GROUP,
+        read=welds.cweld,
+        more="eid:i pid:i>PWELD form:s ida:i idb:i gs:i>GRID? ga:i>GRID? gb:i>GRID? "
+        "xs:f[L] ys:f[L] zs:f[L] gas:*>GRID? gbs:*>GRID?",
+        ids="own",
+        element=Element(
+            reader="connectors.reader:read_cweld",
+            op2=Op2(type=117, force="simple"),
+            results=(Result(kinds=("force",), columns=WELD_FORCE, remark="as CBAR"),),
+        ),
+    ),
+    Card(
+        name="PWELD",
+        group=_GROUP,
+        fields="pid:i mid:i>MAT1 d:f[L] - - mset:s=OFF - type:s= ldmin:f=.2 ldmax:f=5.",
+        ids="own",
     ),
 )

@@ -1,0 +1,1 @@
+"""Welds and fasteners between surfaces: CWELD, CFAST."""
