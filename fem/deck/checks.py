@@ -154,6 +154,7 @@ STATIC_LOADS = (
 )
 
 
+FREQUENCIES = ("FREQ", "FREQ1", "FREQ2", "FREQ3", "FREQ4", "FREQ5")
 _TRANSIENT = (109, 112, 129)
 _MODAL = (103, 107, 110, 111, 112)
 _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
@@ -162,7 +163,7 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
     ("load", (*STATIC_LOADS, "LOAD"), (101, 105)),
     ("dload", ("DLOAD", "TLOAD1", "TLOAD2"), _TRANSIENT),
     ("dload", ("DLOAD", "RLOAD1", "RLOAD2"), (108, 111)),
-    ("frequency", ("FREQ", "FREQ1", "FREQ2"), (108, 111)),
+    ("frequency", FREQUENCIES, (108, 111)),
     ("loadset", ("LSEQ",), _TRANSIENT),
     ("ic", ("TIC",), _TRANSIENT),
     ("tstep", ("TSTEP",), _TRANSIENT),

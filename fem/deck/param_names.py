@@ -16,6 +16,7 @@ DEFAULTS: dict[str, Value] = {
     "CM1": 1.0,
     "CM2": 1.0,
     "COUPMASS": -1,
+    "DFREQ": 1e-5,
     "EPZERO": 1e-8,
     "G": 0.0,
     "GRDPNT": -1,

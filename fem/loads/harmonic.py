@@ -101,32 +101,3 @@ def _function(
     if name == "RLOAD1":
         return (of("tc") + 1j * of("td")).astype(np.complex128)
     return (of("tb") * np.exp(1j * np.radians(of("tp")))).astype(np.complex128)
-
-
-def frequencies(deck: "Deck", subcase: Subcase) -> Float64:
-    """(f,) Hz, ascending: FREQ, FREQ1, FREQ2 of the set that FREQUENCY selects.
-
-    Raises:
-        InputError: there is no such set.
-    """
-    sid = subcase.frequency
-    found = [np.zeros(0)]
-    rows = deck.cards["FREQ"]
-    found += [np.asarray(own) for own in rows[rows["sid"] == sid]["fs"]]
-    rows = deck.cards["FREQ1"]
-    for _, row in rows[rows["sid"] == sid].iterrows():
-        found.append(row["f1"] + row["df"] * np.arange(int(row["ndf"]) + 1))
-    rows = deck.cards["FREQ2"]
-    for _, row in rows[rows["sid"] == sid].iterrows():
-        found.append(np.geomspace(row["f1"], row["f2"], int(row["nf"]) + 1))
-    hertz = np.unique(np.concatenate(found))
-    if not len(hertz):
-        known = sorted({int(i) for c in FREQUENCIES for i in deck.cards[c]["sid"]})
-        raise InputError(
-            f"{deck.path}: subcase {subcase.id}: FREQUENCY = {sid or 'nothing'}, "
-            f"expected a set of {', '.join(FREQUENCIES)}: {known or 'none in the deck'}"
-        )
-    return hertz
-
-
-FREQUENCIES = ("FREQ", "FREQ1", "FREQ2")

@@ -16,19 +16,27 @@ from fem.algebra.frequency_response import (
     modal_response,
 )
 from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import Modes
 from fem.arrays import Float64
 from fem.deck.case_control import Subcase
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
-from fem.loads.harmonic import HarmonicExcitation, frequencies, harmonic_excitation
+from fem.loads.frequencies import frequencies
+from fem.loads.harmonic import HarmonicExcitation, harmonic_excitation
 from fem.model.structure import Structure
 from fem.recovery.elements import element_tables
+from fem.recovery.harmonic import harmonic_table
 from fem.response.modal import residual_vectors
 from fem.solution.analysis_model import AnalysisModel, analysis_model
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
 from fem.solution.options import Options
-from fem.solution.requests import check_free, wanted
+from fem.solution.requests import (
+    ELEMENT_RESULTS,
+    check_free,
+    detail_of,
+    wanted,
+)
 
 Complex128 = npt.NDArray[np.complex128]
 
@@ -50,12 +58,15 @@ def solve_frequencies(
     for case in subcases:
         model = structure.with_subcase(case)
         check_free(model, 108)
-        hertz = frequencies(model.deck, case)
+        basis = _basis(model, options) if _is_modal(model) else None
+        hertz = frequencies(model.deck, case, None if basis is None else basis.elastic)
         excitation = harmonic_excitation(
             model.deck, model.points, case, hertz, model.matrices.mass
         )
-        solve = _modal if _is_modal(model) else _direct
-        u_g = solve(model, hertz, excitation, options)
+        if basis is None:
+            u_g = _direct(model, hertz, excitation, options)
+        else:
+            u_g = _modal(model, basis, hertz, excitation, options)
         _write(model, hertz, excitation, u_g, results)
         options.console.say(_summary(model, hertz, u_g))
 
@@ -117,16 +128,35 @@ _RESONANCE = (
 )
 
 
+@dataclass(frozen=True)
+class _Basis:
+    """Modes of the analysis set that the response is made of."""
+
+    reduced: AnalysisModel
+    modes: Modes
+
+    @property
+    def elastic(self) -> Float64:
+        """(m,) Hz of those that are no rigid-body modes."""
+        return self.modes.frequency_hz[self.modes.rigid :]
+
+
+def _basis(model: Structure, options: Options) -> _Basis:
+    reduced, found = modes_of(model, options)
+    modes = retained_modes(model.deck, found)
+    options.console.say(mode_table(modes))
+    return _Basis(reduced, modes)
+
+
 def _modal(
     model: Structure,
+    basis: _Basis,
     hertz: Float64,
     excitation: HarmonicExcitation,
     options: Options,
 ) -> Complex128:
     """(f, g) displacements."""
-    reduced, found = modes_of(model, options)
-    modes = retained_modes(model.deck, found)
-    options.console.say(mode_table(modes))
+    reduced, modes = basis.reduced, basis.modes
     pattern = reduced.load(excitation.pattern)
     asked = model.subcase.resvec or str(model.deck.param("RESVEC"))
     if not asked.upper().startswith("NO"):
@@ -190,15 +220,23 @@ def _write(
         out.points("spc_force", spc, "SPCFORCES")
         mpc = model.elimination.mpc_force(residual.T).T
         out.points("mpc_force", mpc, "MPCFORCES")
-    for table in element_tables(
-        model.points, model.blocks, "force", wanted(case, "FORCE"), moving=True
-    ):
-        linear = (table.operator @ u_g.T).T
-        if table.rate is not None:
-            linear = linear + (table.rate @ (rate * u_g).T).T
-        # Forces are linear: both parts by themselves.
-        values = table.evaluate(linear.real) + 1j * table.evaluate(linear.imag)
-        results.write_table(f"{name}/element_force", table, values)
+    detail = detail_of(model.deck, case)
+    for request, kind in ELEMENT_RESULTS:
+        if kind == "failure":  # has no phase
+            continue
+        for table in element_tables(
+            model.points,
+            model.blocks,
+            kind,
+            wanted(case, request),
+            detail=detail,
+            moving=True,
+        ):
+            linear = (table.operator @ u_g.T).T
+            if table.rate is not None:
+                linear = linear + (table.rate @ (rate * u_g).T).T
+            harmonic, values = harmonic_table(table, linear)
+            results.write_table(f"{name}/element_{kind}", harmonic, values)
 
 
 def _residual(model: Structure, rate: Complex128, u_g: Complex128) -> Complex128:

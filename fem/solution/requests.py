@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from fem.deck.case_control import Subcase
 from fem.deck.case_sets import Selection
+from fem.deck.checks import FREQUENCIES
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
 from fem.errors import InputError
@@ -88,13 +89,13 @@ def check_requests(deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]) ->
 _NEEDED = {
     103: (("METHOD", ("EIGRL",), "which modes"),),
     108: (
-        ("FREQUENCY", ("FREQ", "FREQ1", "FREQ2"), "the frequencies"),
+        ("FREQUENCY", FREQUENCIES, "the frequencies"),
         ("DLOAD", ("RLOAD1", "RLOAD2"), "the loads"),
     ),
     109: (("TSTEP", ("TSTEP",), "the time steps"),),
     111: (
         ("METHOD", ("EIGRL",), "which modes"),
-        ("FREQUENCY", ("FREQ", "FREQ1", "FREQ2"), "the frequencies"),
+        ("FREQUENCY", FREQUENCIES, "the frequencies"),
         ("DLOAD", ("RLOAD1", "RLOAD2"), "the loads"),
     ),
     112: (

@@ -215,3 +215,35 @@ def eigrl(columns: Columns, problems: Problems) -> None:
                     f"{name}: {limit.upper()} {columns[limit][row]:g} Hz, expected at "
                     f"most {_HIGHEST:g} Hz, or blank for no limit"
                 )
+
+
+def freq3(columns: Columns, problems: Problems) -> None:
+    """Between frequencies above zero, at least their ends."""
+    for row, f1 in enumerate(columns["f1"]):
+        f2, nef = columns["f2"][row], columns["nef"][row]
+        kind, cluster = columns["type"][row], columns["cluster"][row]
+        if (
+            not f1 > 0.0
+            or f2 < f1
+            or nef < 2
+            or not cluster > 0.0
+            or kind not in ("LINEAR", "LOG")
+        ):
+            problems.append(
+                f"{_place(columns, row)}: FREQ3 {columns['sid'][row]}: found F1 {f1}, "
+                f"F2 {f2}, TYPE {kind}, NEF {nef}, CLUSTER {cluster}; expected F2 "
+                "above F1 above 0, LINEAR or LOG, NEF 2 or more, CLUSTER above 0"
+            )
+
+
+def freq4(columns: Columns, problems: Problems) -> None:
+    """A spread below one, an odd number of frequencies (else the mode is left out)."""
+    for row, spread in enumerate(columns["fspd"]):
+        if not 0.0 < spread < 1.0 or columns["nfm"][row] < 1:
+            problems.append(
+                f"{_place(columns, row)}: FREQ4 {columns['sid'][row]}: found FSPD "
+                f"{spread}, NFM {columns['nfm'][row]}, expected between 0 and 1, and 1 "
+                "or more"
+            )
+        if columns["nfm"][row] % 2 == 0:
+            columns["nfm"][row] += 1

@@ -168,6 +168,15 @@ def freq(f: Fields) -> Rows:
     return [{"sid": f.integer(1, "SID"), "fs": np.unique(found)}]
 
 
+def freq5(f: Fields) -> Rows:
+    """FREQ5: fractions of natural frequencies between F1 and F2."""
+    found = [f.real(k, "FR") for k in f.groups(4, 1)]
+    if not found or min(found) <= 0.0:
+        raise Malformed(f"found {found}, expected fractions above 0")
+    row = {"sid": f.integer(1, "SID"), "f1": f.real(2, "F1", 0.0)}
+    return [{**row, "f2": f.real(3, "F2", 1e20), "frs": np.unique(found)}]
+
+
 def tstep(f: Fields) -> Rows:
     steps = []
     for k in f.groups(2, 3, row=8):

@@ -66,6 +66,27 @@ RECORDS = (
     Card(name="FREQ1", group=_GROUP, fields="sid:i f1:f=0. df:f ndf:i=1", load=True),
     Card(name="FREQ2", group=_GROUP, fields="sid:i f1:f f2:f nf:i=1", load=True),
     Card(
+        name="FREQ3",
+        group=_GROUP,
+        fields="sid:i f1:f f2:f=nan type:s=LINEAR nef:i=10 cluster:f=1.",
+        finish=finish.freq3,
+        load=True,
+    ),
+    Card(
+        name="FREQ4",
+        group=_GROUP,
+        fields="sid:i f1:f=0. f2:f=1.+20 fspd:f=.1 nfm:i=3",
+        finish=finish.freq4,
+        load=True,
+    ),
+    Card(
+        name="FREQ5",
+        group=_GROUP,
+        read=lists.freq5,
+        more="sid:i f1:f f2:f frs:*",
+        load=True,
+    ),
+    Card(
         name="DELAY", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 t:f=0.)", load=True
     ),
     Card(

@@ -7,6 +7,7 @@ import pytest
 import fem
 from fem.errors import InputError
 from fem.files.export import export
+from fem.recovery.elements import element_tables
 from fem.solution import run_deck
 
 OSCILLATOR = """\
@@ -153,3 +154,92 @@ def test_post_processors_find_complex_displacements(solve):
 def test_what_cannot_be_solved_is_named(solve, sol, case, bulk, message):
     with pytest.raises(InputError, match=message):
         solve(sol, case, bulk)
+
+
+NATURAL = np.sqrt(K / M) / (2.0 * np.pi)
+
+
+@pytest.mark.parametrize(
+    ("card", "expected"),
+    [
+        ("FREQ4,3,0.,100.,.2,5", NATURAL * np.array([0.8, 0.9, 1.0, 1.1, 1.2])),
+        ("FREQ4,3,10.,100.\nFREQ,3,1.", [1.0]),
+        ("FREQ5,3,0.,9.,.5,1.,1.5", NATURAL * np.array([0.5, 1.0, 1.5])),
+        (
+            "FREQ3,3,1.,9.,LINEAR,3",
+            [1.0, 0.5 * (1.0 + NATURAL), NATURAL, 0.5 * (9.0 + NATURAL), 9.0],
+        ),
+        (
+            "FREQ3,3,1.,9.,LOG,3",
+            [1.0, np.sqrt(NATURAL), NATURAL, 3.0 * np.sqrt(NATURAL), 9.0],
+        ),
+        # Clustered at the ends: share sign(x) |x|^(1/2) of half the interval.
+        (
+            "FREQ3,3,5.,9.,LINEAR,5,2.",
+            7.0 + 2.0 * np.array([-1.0, -np.sqrt(0.5), 0.0, np.sqrt(0.5), 1.0]),
+        ),
+        ("FREQ,3,1.,1.000009,2.", [1.0, 2.0]),
+    ],
+)
+def test_frequencies_by_natural_ones(solve, card, expected):
+    bulk = OSCILLATOR.replace("FREQ1,3,1.,.5,10\nFREQ,3,3.2,5.1", card)
+    found = solve(111, CASE, f"PARAM,G,.04\n{bulk}")[0]["frequency/1/frequency_hz"]
+    assert found == pytest.approx(np.asarray(expected), rel=1e-6)
+
+
+def test_direct_response_knows_no_natural_frequencies(solve):
+    bulk = OSCILLATOR.replace("FREQ1,3,1.,.5,10\nFREQ,3,3.2,5.1", "FREQ4,3,0.,9.")
+    with pytest.raises(InputError, match="expected SOL 111, or FREQ, FREQ1"):
+        solve(108, CASE, bulk)
+
+
+PLATE = """\
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,.1
+CQUAD4,1,1,1,2,3,4
+CBAR,2,2,2,3,1.,0.,0.
+PBAR,2,1,.01,1.-5,2.-5,1.-5,,,+
++,.1,.1,-.1,.1,.1,-.1,-.1,-.1
+PSHELL,1,1,.02,1
+MAT1,1,7.+10,,.3,2700.,,,.03
+SPC1,1,123456,1,4
+DAREA,9,3,1,1.+4,3,3,500.
+DAREA,9,2,2,2.+3
+DPHASE,8,2,2,70.
+RLOAD1,5,9,,8,1.
+FREQ,3,2.,60.
+EIGRL,1,,,12
+"""
+
+
+def test_complex_stresses_follow_the_motion(solve):
+    """Linear columns by the real and the imaginary part; von Mises at its peak."""
+    case = CASE + "STRESS = ALL\nSTRAIN = ALL\nFORCE = ALL\n"
+    found, deck, out = solve(108, case, PLATE)
+    structure = fem.Structure.from_deck(deck)
+    u = found["frequency/1/displacement"].reshape(2, -1)
+    (table,) = [
+        t
+        for t in element_tables(structure.points, structure.blocks, "stress")
+        if t.table == "CQUAD4"
+    ]
+    with h5py.File(out) as file:
+        group = file["frequency/1/element_stress/CQUAD4"]
+        columns, values = list(group.attrs["columns"]), group["value"][:]
+        bar = list(file["frequency/1/element_stress/CBAR"].attrs["columns"])
+    assert bar == ["s1a", "s2a", "s3a", "s4a", "axial", "s1b", "s2b", "s3b", "s4b"]
+    turns = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 721))
+    for k in range(2):
+        cycle = np.stack([table.of((u[k] * turn).real)[0] for turn in turns])
+        for name in ("oxx_1", "txy_2"):
+            history = cycle[:, table.columns.index(name)]
+            np.testing.assert_allclose(
+                history, (values[k, 0, columns.index(name)] * turns).real, rtol=1e-9
+            )
+        peak = cycle[:, table.columns.index("von_mises_1")].max()
+        largest = values[k, 0, columns.index("von_mises_1")]
+        assert largest.imag == 0.0
+        assert largest.real == pytest.approx(peak, rel=1e-4)
+        assert values[k, 0, columns.index("fibre_1")] == pytest.approx(-0.01)
