@@ -16,12 +16,14 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.arrays import Int64
+from fem.deck.case_control import Subcase
 from fem.elements.connectivity import element_grids
 from fem.files.atomic import written_aside
+from fem.files.complex_parts import REAL, as_asked, form_of
+from fem.files.op2_complex import complex_layout_of
 from fem.files.op2_elements import (
     Elements,
     Layout,
-    complex_layout,
     layout_of,
     plies_of,
     ply_words,
@@ -45,13 +47,13 @@ Words = npt.NDArray[np.float32]
 Numbers = npt.NDArray[np.inexact]
 
 _POINTS = {
-    "displacement": ("OUGV1", 1),
-    "shape": ("OUGV1", 7),
-    "velocity": ("OVG1", 10),
-    "acceleration": ("OAG1", 11),
-    "applied_load": ("OPG1", 2),
-    "spc_force": ("OQG1", 3),
-    "mpc_force": ("OQMG1", 39),
+    "displacement": ("OUGV1", 1, "DISPLACEMENT"),
+    "shape": ("OUGV1", 7, "DISPLACEMENT"),
+    "velocity": ("OVG1", 10, "VELOCITY"),
+    "acceleration": ("OAG1", 11, "ACCELERATION"),
+    "applied_load": ("OPG1", 2, "OLOAD"),
+    "spc_force": ("OQG1", 3, "SPCFORCES"),
+    "mpc_force": ("OQMG1", 39, "MPCFORCES"),
 }
 # Kind of result: table, table of plies, code, SCODE of both.
 _ELEMENTS = {
@@ -88,6 +90,7 @@ def write_op2(results: Path, structure: Structure, path: Path) -> list[str]:
         Tables of element results that have no place in an OP2 file.
     """
     left: list[str] = []
+    cases = {case.id: case for case in structure.deck.case_control}
     with (
         written_aside(path) as part,
         h5py.File(results) as source,
@@ -96,8 +99,9 @@ def write_op2(results: Path, structure: Structure, path: Path) -> list[str]:
         file = Op2File(stream)
         for solution in solutions(source):
             states = _states(solution, structure)
-            series = _point_series(solution)
-            elements, missing = _element_series(solution, structure)
+            case = cases.get(solution.subcase, structure.deck.case_control[0])
+            series = _point_series(solution, case)
+            elements, missing = _element_series(solution, structure, case)
             left += missing
             _write(file, series + elements, states)
         file.close()
@@ -132,22 +136,24 @@ def _write(file: Op2File, series: list[_Series], states: list[State]) -> None:
         file.end_table()
 
 
-def _point_series(solution: Solution) -> list[_Series]:
+def _point_series(solution: Solution, case: Subcase) -> list[_Series]:
     series = []
-    for name, (table, code) in _POINTS.items():
+    for name, (table, code, request) in _POINTS.items():
         result = solution.point(name)
         if result is None:
             continue
+        form = form_of(case, request, result.grids.dtype)
 
-        def words_of(k: int, result: PointResult = result) -> Words:
+        def words_of(k: int, result: PointResult = result, form: int = form) -> Words:
             grids = solution.state(result.grids, k)
             scalars = np.zeros((len(result.scalar_id), 6), grids.dtype)
             if result.scalars is not None:
                 scalars[:, 0] = solution.state(result.scalars, k)
+            grids, scalars = as_asked(grids, form), as_asked(scalars, form)
             return _point_words(result.grid_id, grids, result.scalar_id, scalars)
 
-        parts = 2 if np.issubdtype(result.grids.dtype, np.complexfloating) else 1
-        kind = Kind(table=table, code=code, width=2 + 6 * parts, parts=parts)
+        numbers = 6 if form == REAL else 12
+        kind = Kind(table=table, code=code, width=2 + numbers, parts=form)
         series.append(_Series(kind, words_of))
     return series
 
@@ -173,7 +179,7 @@ def _point_words(
 
 
 def _element_series(
-    solution: Solution, structure: Structure
+    solution: Solution, structure: Structure, case: Subcase
 ) -> tuple[list[_Series], list[str]]:
     """Series of element results, and what has no place in the file."""
     series: list[_Series] = []
@@ -181,7 +187,12 @@ def _element_series(
         f"element_failure of {card}" for card in solution.elements("element_failure")
     ]
     for name, (table, ply_table, code, stress, ply_stress) in _ELEMENTS.items():
+        request = name.removeprefix("element_").upper()
         for card, result in solution.elements(name).items():
+            harmonic = np.issubdtype(result.dataset.dtype, np.complexfloating)
+            if harmonic and plies_of(card):
+                left.append(f"complex {name} of {card}")
+                continue
             if plies := plies_of(card):
                 kind = Kind(
                     table=ply_table,
@@ -196,14 +207,12 @@ def _element_series(
             if layout is None:
                 left.append(f"{name} of {card}")
                 continue
-            parts = 2 if np.issubdtype(result.dataset.dtype, np.complexfloating) else 1
-            if parts == 2:
-                layout = complex_layout(layout)
+            form = form_of(case, request, result.dataset.dtype)
 
             def words_of(
-                k: int, result: ElementResult = result, layout=layout
+                k: int, result: ElementResult = result, layout=layout, form=form
             ) -> Words:
-                values = solution.state(result.dataset, k)
+                values = as_asked(solution.state(result.dataset, k), form)
                 return words(layout, result.columns, values)
 
             kind = Kind(
@@ -212,7 +221,7 @@ def _element_series(
                 element=layout.type,
                 width=layout.width,
                 stress=stress,
-                parts=parts,
+                parts=form,
             )
             series.append(_Series(kind, words_of))
     return series, left
@@ -224,7 +233,9 @@ def _layout(
     """Words of a table "element_force" ... of a card; None: there is no place."""
     grids = _grids_of(structure, card, result.id)
     elements = Elements(id=result.id, grids=grids, columns=result.columns)
-    return layout_of(card, name.removeprefix("element_"), elements)
+    harmonic = np.issubdtype(result.dataset.dtype, np.complexfloating)
+    arranged = complex_layout_of if harmonic else layout_of
+    return arranged(card, name.removeprefix("element_"), elements)
 
 
 def element_layouts(

@@ -7,7 +7,6 @@ numbers are integers among the reals. What Nastran fills with margins of safety 
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import groupby
 
 import numpy as np
 import numpy.typing as npt
@@ -19,7 +18,6 @@ from fem.files.op2_records import DEVICE
 Float32 = npt.NDArray[np.float32]
 Cell = str | float | Int64
 
-_NOTHING = ""  # column of a place without results: zero
 NO_MARGIN = float(np.array([1], "<i4").view("<f4")[0])
 
 
@@ -72,14 +70,13 @@ def words(layout: Layout, columns: Sequence[str], values: Float64) -> Float32:
     """(e, w) words of results (e, c), real, or real and imaginary parts one by one."""
     at = {name: k for k, name in enumerate(columns)}
     if np.iscomplexobj(values):
-        at |= {_imaginary(name): len(at) + k for name, k in at.items()}
+        at |= {imaginary(name): len(at) + k for name, k in at.items()}
         values = np.concatenate([values.real, values.imag], axis=1)
     out = np.zeros((len(values), layout.width), "<f4")
     integers = out.view("<i4")
     for k, cell in enumerate(layout.cells):
         if isinstance(cell, str):
-            if cell != _NOTHING:
-                out[:, k] = values[:, at[cell]]
+            out[:, k] = values[:, at[cell]]
         elif isinstance(cell, float):
             out[:, k] = cell
         else:
@@ -87,43 +84,34 @@ def words(layout: Layout, columns: Sequence[str], values: Float64) -> Float32:
     return out
 
 
-def complex_layout(layout: Layout) -> Layout:
-    """The same with imaginary parts: of each run of columns, after its real parts."""
-    cells: list[Cell] = []
-    for is_value, run in groupby(layout.cells, key=lambda cell: isinstance(cell, str)):
-        own = list(run)
-        cells += own
-        if is_value:
-            cells += [_imaginary(str(name)) for name in own]
-    return Layout(type=layout.type, cells=cells)
+def imaginary(column: str) -> str:
+    """Name of the imaginary part of a complex column."""
+    return f"{column} imaginary"
 
 
-def _imaginary(column: str) -> str:
-    return f"{column} imaginary" if column != _NOTHING else _NOTHING
-
-
-def _device(elements: Elements) -> Int64:
+def device(elements: Elements) -> Int64:
+    """(e,) words of their ids."""
     return 10 * elements.id + DEVICE
 
 
 def _simple(op2: Op2, e: Elements) -> Layout:
     """The id, then all columns as they come."""
-    return Layout(type=op2.type, cells=[_device(e), *e.columns])
+    return Layout(type=op2.type, cells=[device(e), *e.columns])
 
 
 def _rod_stress(op2: Op2, e: Elements) -> Layout:
     first, second = e.columns
-    cells = [_device(e), first, NO_MARGIN, second, NO_MARGIN]
+    cells = [device(e), first, NO_MARGIN, second, NO_MARGIN]
     return Layout(type=op2.type, cells=cells)
 
 
 def _panel_stress(op2: Op2, e: Elements) -> Layout:
-    return Layout(type=op2.type, cells=[_device(e), *e.columns, NO_MARGIN])
+    return Layout(type=op2.type, cells=[device(e), *e.columns, NO_MARGIN])
 
 
 def _bar_stress(op2: Op2, e: Elements) -> Layout:
     c = e.columns  # four points, axial, extremes at A; four points, extremes at B
-    cells = [_device(e), *c[:7], NO_MARGIN, *c[7:], NO_MARGIN]
+    cells = [device(e), *c[:7], NO_MARGIN, *c[7:], NO_MARGIN]
     return Layout(type=op2.type, cells=cells)
 
 
@@ -131,18 +119,18 @@ def _beam(op2: Op2, e: Elements) -> Layout:
     """Eleven stations, of which the ends have results; stresses with two margins."""
     half = len(e.columns) // 2
     margins = 2 if "smax_a" in e.columns else 0
-    empty: list[Cell] = [np.zeros(1, np.int64), 0.0, *[_NOTHING] * (half + margins)]
+    empty: list[Cell] = [np.zeros(1, np.int64), *[0.0] * (1 + half + margins)]
     ends: list[list[Cell]] = []
     for k, place in enumerate((0.0, 1.0)):
         own = e.columns[k * half : (k + 1) * half]
         ends.append([e.grids[:, k], place, *own, *[NO_MARGIN] * margins])
-    cells = [_device(e), *ends[0], *empty * 9, *ends[1]]
+    cells = [device(e), *ends[0], *empty * 9, *ends[1]]
     return Layout(type=op2.type, cells=cells)
 
 
 def _plate(op2: Op2, e: Elements) -> Layout:
     """The centre, or the centre and the corners with their grids."""
-    points, cells = e.points, [_device(e)]
+    points, cells = e.points, [device(e)]
     if points == 1:
         return Layout(type=op2.type, cells=[*cells, *e.columns])
     per_point = len(e.columns) // points
@@ -159,7 +147,7 @@ def _solid(op2: Op2, e: Elements) -> Layout:
     """Centre and corners: stresses, principal ones, mean pressure, von Mises."""
     points = e.points
     grid_word = np.full(1, int.from_bytes(b"GRID", "little"))
-    cells: list[Cell] = [_device(e), np.zeros(1, np.int64), grid_word]
+    cells: list[Cell] = [device(e), np.zeros(1, np.int64), grid_word]
     cells.append(np.full(1, points - 1))
     none = [0.0, 0.0, 0.0]
     for k in range(points):

@@ -49,7 +49,8 @@ class Kind:
         element: element type, 0 for points.
         width: words per element or point.
         stress: Nastran's SCODE.
-        parts: 2 for real and imaginary parts, 1 for real numbers.
+        parts: 1 for real numbers, 2 for real and imaginary parts, 3 for magnitude and
+            phase.
     """
 
     table: str

@@ -12,13 +12,15 @@ from typing import TextIO
 
 import h5py
 import numpy as np
+import numpy.typing as npt
 
 from fem.arrays import Float64, Int64
 from fem.deck.case_control import Subcase
 from fem.deck.deck import Deck
 from fem.files.atomic import written_aside
+from fem.files.complex_parts import HEADINGS, as_asked, form_of
 from fem.files.op2 import element_layouts
-from fem.files.op2_elements import Layout
+from fem.files.op2_elements import Layout, words
 from fem.files.reading import PointResult, Solution, solutions
 from fem.model.structure import Structure
 
@@ -85,15 +87,17 @@ def _write_state(
         found = solution.point(name)
         if found is None or (asked is not None and request not in asked):
             continue
-        out.head(case, heading, _state(solution, k))
-        _points(out, solution, found, k)
+        form = form_of(case, request, found.grids.dtype)
+        out.head(case, heading, _state(solution, k), form)
+        _points(out, solution, found, k, form)
     for name, (request, heading) in _ELEMENTS.items():
         if asked is not None and request not in asked:
             continue
         for card, layout, result in element_layouts(solution, structure, name):
-            out.head(case, heading, _state(solution, k))
+            form = form_of(case, request, result.dataset.dtype)
+            out.head(case, heading, _state(solution, k), form)
             out.comment(f"$ELEMENT TYPE ={layout.type:12d}  {card}")
-            values = solution.state(result.dataset, k)
+            values = as_asked(solution.state(result.dataset, k), form)
             _elements(out, layout, result.columns, result.id, values)
 
 
@@ -103,34 +107,48 @@ def _state(solution: Solution, k: int) -> str:
         return f"$EIGENVALUE = {(2.0 * np.pi * value) ** 2:14.7E}  MODE ={k + 1:6d}"
     if solution.analysis == "buckling":
         return f"$EIGENVALUE = {value:14.7E}  MODE ={k + 1:6d}"
+    if solution.analysis == "frequency":
+        return f"$FREQUENCY = {value:16.7E}"
     return f"$TIME = {value:14.7E}" if solution.analysis == "transient" else ""
 
 
-def _points(out: "_Cards", solution: Solution, found: PointResult, k: int) -> None:
-    for grid, values in zip(found.grid_id, solution.state(found.grids, k)):
-        out.card(f"{grid:10d}       G", [f"{v:18.6E}" for v in values])
+def _points(
+    out: "_Cards", solution: Solution, found: PointResult, k: int, form: int
+) -> None:
+    values = as_asked(solution.state(found.grids, k), form)
+    for grid, own in zip(found.grid_id, values):
+        out.card(f"{grid:10d}       G", _reals(own))
     if found.scalars is not None:
-        for point, value in zip(found.scalar_id, solution.state(found.scalars, k)):
-            out.card(f"{point:10d}       S", [f"{value:18.6E}"])
+        values = as_asked(solution.state(found.scalars, k), form)
+        for point, value in zip(found.scalar_id, values):
+            out.card(f"{point:10d}       S", _reals(value[None]))
+
+
+def _reals(values: npt.NDArray) -> list[str]:
+    """Words of numbers; of complex ones all first parts, then all second ones."""
+    both = [values.real, values.imag] if np.iscomplexobj(values) else [values]
+    return [f"{v:18.6E}" for part in both for v in part]
 
 
 def _elements(
     out: "_Cards", layout: Layout, columns: Sequence[str], ids: Int64, values: Float64
 ) -> None:
-    at = {name: k for k, name in enumerate(columns)}
+    raw = words(layout, columns, values)
     for row, element in enumerate(ids):
-        words = []
-        for cell in layout.cells[1:]:
-            if isinstance(cell, str):
-                words.append(f"{values[row, at[cell]]:18.6E}")
-            elif isinstance(cell, float):
-                words.append(f"{cell:18.6E}")
-            else:
-                whole = int(cell[min(row, len(cell) - 1)])
-                text = whole.to_bytes(4, "little", signed=True)
-                word = text.decode() if text in (b"CEN/", b"GRID") else str(whole)
-                words.append(f"{word:>18}")
-        out.card(f"{element:10d}{'':8}", words)
+        texts = [
+            f"{raw[row, k]:18.6E}"
+            if isinstance(cell, str | float)
+            else f"{_whole(cell, row):>18}"
+            for k, cell in enumerate(layout.cells)
+        ]
+        out.card(f"{element:10d}{'':8}", texts[1:])
+
+
+def _whole(cell: Int64, row: int) -> str:
+    """A word of a layout that is no real number."""
+    whole = int(cell[min(row, len(cell) - 1)])
+    text = whole.to_bytes(4, "little", signed=True)
+    return text.decode() if text in (b"CEN/", b"GRID") else str(whole)
 
 
 class _Cards:
@@ -145,12 +163,12 @@ class _Cards:
         self._count += 1
         self._stream.write(f"{text[:72]:<72}{self._count:8d}\n")
 
-    def head(self, case: Subcase, heading: str, state: str) -> None:
+    def head(self, case: Subcase, heading: str, state: str, form: int) -> None:
         """What the following cards are."""
         for name in ("title", "subtitle", "label"):
             self.comment(f"${name.upper():<8}= {getattr(case, name)}")
         self.comment(f"${heading}")
-        self.comment("$REAL OUTPUT")
+        self.comment(HEADINGS[form])
         self.comment(f"$SUBCASE ID ={case.id:12d}")
         if state:
             self.comment(state)
