@@ -146,7 +146,8 @@ def test_stresses(written, kind):
 def test_punch_has_both_parts(written):
     out, _, punch, form, left = written
     heading = {"REAL": "$REAL-IMAGINARY OUTPUT", "PHASE": "$MAGNITUDE-PHASE OUTPUT"}
-    assert heading[form] in punch and "$FREQUENCY =" in punch
+    assert heading[form] in punch
+    assert "$FREQUENCY =" in punch
     with h5py.File(out) as file:
         u = file["frequency/1/displacement"][0, 6]
     lines = punch.splitlines()
