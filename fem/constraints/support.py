@@ -1,9 +1,11 @@
 """Constraints of a subcase with what AUTOSPC adds, and the stiffness that is left."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.arrays import Int64
@@ -24,11 +26,14 @@ class Support:
         elimination: constraints, AUTOSPC included: u_g = T u_f + u_0.
         stiffness: (f, f) K.
         autospc: freedoms that AUTOSPC constrained; None where it is switched off.
+        inert: (n,) rows of the g-set that are held although AUTOSPC is off: they have
+            no entry in any matrix, so nothing depends on them.
     """
 
     elimination: Elimination
     stiffness: sp.csr_matrix
     autospc: Singularities | None
+    inert: Int64 = field(default_factory=lambda: np.zeros(0, np.int64))
 
 
 def support(
@@ -39,6 +44,7 @@ def support(
     spc: int,
     mpc: int,
     generalised: Int64,
+    moving: Sequence[sp.csr_matrix] = (),
 ) -> Support:
     """Constraints of a subcase after AUTOSPC.
 
@@ -49,6 +55,7 @@ def support(
         spc, mpc: sets of constraints, 0: none.
         generalised: rows of the g-set of generalised coordinates (QSET), which have no
             stiffness before a reduction gives them one; they are held here.
+        moving: (g, g) mass and damping, where the solution has them.
 
     Raises:
         InputError: constraints that contradict each other; no freedom is left although
@@ -58,7 +65,7 @@ def support(
     elimination = elimination.with_fixed(np.setdiff1d(generalised, elimination.s))
     reduced = elimination.reduce(stiffness)
     if str(deck.param("AUTOSPC")).upper().startswith("N"):
-        return Support(elimination=elimination, stiffness=reduced, autospc=None)
+        return _without_inert(elimination, reduced, moving)
     found = find_singularities(
         reduced, elimination, points, epzero=deck.number("EPZERO")
     )
@@ -74,3 +81,28 @@ def support(
             "the grids, with a modulus above 0"
         )
     return Support(elimination=elimination, stiffness=reduced, autospc=found)
+
+
+def _without_inert(
+    elimination: Elimination, stiffness: sp.csr_matrix, moving: Sequence[sp.csr_matrix]
+) -> Support:
+    """Freedoms without entry in any matrix held, as MSC Nastran does.
+
+    Its results are zero there with AUTOSPC NO (pyNastran models, time_elements and
+    buckling_solid_shell_bar).
+    """
+    used = _rows_used(stiffness)
+    for matrix in moving:
+        used |= _rows_used(elimination.reduce(matrix))
+    inert = elimination.f[~used]
+    if len(inert):
+        elimination = elimination.with_fixed(inert)
+        stiffness = sp.csr_matrix(stiffness[used][:, used])
+    return Support(
+        elimination=elimination, stiffness=stiffness, autospc=None, inert=inert
+    )
+
+
+def _rows_used(matrix: sp.csr_matrix) -> npt.NDArray[np.bool_]:
+    """Which rows of a symmetric matrix have an entry that is not zero."""
+    return np.asarray(abs(matrix).sum(axis=1)).ravel() > 0.0

@@ -260,7 +260,7 @@ class _Reader:
     # -- commands with rules of their own, called by name ---------------------------
 
     def do_param(self, command: _Command) -> None:
-        parts = [part.strip() for part in command.statement.upper().split(",")]
+        parts = [x for x in re.split(r"[\s,=]+", command.statement.upper()) if x]
         if len(parts) < 3:
             raise ValueError("expected PARAM,NAME,VALUE")
         self.result.params.append((parts[1], parts[2], command.line))

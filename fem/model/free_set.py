@@ -15,6 +15,7 @@ import scipy.sparse as sp
 from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct
 from fem.arrays import Float64, Int64
+from fem.constraints.autospc import grouped
 from fem.constraints.support import Support, support
 from fem.elements.quality import quality_notices
 from fem.elements.registry import element_notices
@@ -26,6 +27,9 @@ from fem.model.weight import rigid_modes
 
 if TYPE_CHECKING:
     from fem.deck.case_control import Subcase
+
+
+_WITHOUT_MOTION = (101, 105)
 
 
 @dataclass(frozen=True)
@@ -96,7 +100,16 @@ class FreeSet:
             spc=self.choice.spc,
             mpc=self.choice.mpc,
             generalised=self.model.generalised_dof,
+            moving=self._moving(),
         )
+
+    def _moving(self) -> list[sp.csr_matrix]:
+        """Mass and damping, where the deck's solution has them."""
+        if self.model.deck.sol in _WITHOUT_MOTION:
+            return []
+        found, damping = self.model.matrices, self.model.damping
+        other = [] if damping.other is None else [sp.csr_matrix(damping.other)]
+        return [found.mass, *other]
 
     @cached_property
     def mass(self) -> sp.csr_matrix:
@@ -147,6 +160,13 @@ class FreeSet:
         ]
         if self.model.choice.massset:
             lines.append(combination_story(deck, self.model.choice.massset))
+        inert = self.support.inert
+        if len(inert):
+            names = grouped([self.model.points.label(int(d)) for d in inert], 8)
+            lines.append(
+                f"{len(inert)} freedoms without any stiffness or mass are held "
+                f"(AUTOSPC is off): {names}"
+            )
         if autospc is not None and len(autospc.dof):
             lines.append(f"AUTOSPC constrained {autospc.summary(self.model.points)}")
         return lines
