@@ -28,13 +28,22 @@ def member_sets(deck: "Deck", card: str, sid: int) -> list[int]:
     return [int(s) for members in chosen["sets"] for s in members] or [sid]
 
 
-def freedoms_of(deck: "Deck", points: Points, card: str) -> Int64:
+def freedoms_of(
+    deck: "Deck", points: Points, card: str, sid: int | None = None
+) -> Int64:
     """Rows of the g-set that ASET, QSET or SUPORT cards name, ascending.
+
+    Args:
+        deck, points: the model.
+        card: name.
+        sid: set, for cards that have one.
 
     Raises:
         InputError: points that are not defined.
     """
     named = table(deck, card)
+    if sid is not None:
+        named = named[named["sid"] == sid]
     rows: list[Int64] = []
     problems: list[str] = []
     for point, digits in zip(named["id"], named["c"]):

@@ -10,31 +10,31 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
             "CBARAO CONTRLT DTI ECHOOFF ECHOON GEOMIN MDLPRM OUTRCV PLOTEL3 PLOTEL4 "
             "SEQGP USET USET1 UXVEC VIEW VIEW3D WEIGHT BOUTPUT CAMERA GMCURV GMSURF "
             "SEUSET SEUSET1 STREAMLINE SWLDPRM ELIST CYJOIN EXTRN MONSUM "
-            "MONSUM1 MONSUMT MONDSP1",
+            "MONSUM1 MONSUMT MONDSP1 DEBUG GROUP GROUPM ABSNMVS ABSTRCT ABSLABEL POINT "
+            "PLOTE PLOTG PLOTOPT FREEPT",
         ),
         (
             "Superelements of one bulk data section, solved as one model",
             "SESET SEELT SETREE SELABEL SEBSET SEBSET1 SECSET SECSET1 SEQSET SEQSET1 "
             "SESUP RELEASE",
         ),
-        ("Supports that a subcase selects", "SUPORT1"),
         (
             "Design optimisation",
             "DCONSTR DEQATN DESVAR DLINK DOPTPRM DRESP1 DRESP2 DRESP3 DSCREEN DTABLE "
             "DVCREL1 DVCREL2 DVMREL1 DVMREL2 DVPREL1 DVPREL2 DVGRID DVBSHAP DVSHAP "
             "DRESP DCONADD DLINK2 DOPTPRM DVGEOM BNDGRID BEADVAR TOPVAR MODTRAK "
-            "DESVAR1",
+            "DESVAR1 DVTREL1 DMNCON DMRLAW MODTRK TOMVAR DSPNOPT",
         ),
         (
             "Frequency response, random response, complex modes",
             "EIGC RANDPS RANDT1 RCROSS "
-            "TABLED2 TABLED3 TABLED4 TABRND1 TABRNDG RANDT2 ACSRCE EIGP RANDVAR "
-            "ROTORG ROTORSE RSPINR RSPINT UNBALNC RGYRO",
+            "TABRND1 TABRNDG RANDT2 ACSRCE EIGP RANDVAR "
+            "ROTORG ROTORSE RSPINR RSPINT UNBALNC RGYRO RVDOF RVDOF1 TABLED5",
         ),
         (
             "Temperatures, nonlinear solutions, properties that depend on frequency",
             "CREEP MATHE MATHP MATS1 MATS3 MATS8 MATF1 MATT1 MATT2 MATT3 MATT8 MATT9 "
-            "NLPARM NLPCI NLSTEP NLCNTL TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 "
+            "NLPARM NLPCI NLSTEP NLCNTL NLCNTL2 NLCNTLG TABLEM1 TABLEM2 TABLEM3 TABLEM4 TABLES1 "
             "TABLEST TEMPP1 TEMPP3 TEMPN1 TSTEPNL TSTEP1 NLRGAP "
             "NOLIN1 NOLIN2 NOLIN3 NOLIN4 PELAST PDAMPT PBUSHT EPOINT TF",
         ),
@@ -50,7 +50,8 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
             "BCONP BCONPRG BCONPRP BCPARA BCPATCH BCPROP BCPROP1 BCRIGID BCRGSRF "
             "BCRPARA BCTABLE BCTABL1 BCTADD BCTPARA BCTPARM BCTSET BCONECT BCAUTOP "
             "BCSCAP BFRIC BGADD BGPARM BGSET BLSEG BSURF BSURFS BOLT BOLTFOR BOLTLD "
-            "BOLTSEQ BWIDTH",
+            "BOLTSEQ BWIDTH BCBDPRP BCSURF BCGRID BCTABLE1 BCTRIM BCPFLG BCBNDRY BCPROPS "
+            "BCPROP2",
         ),
         (
             "Aeroelasticity",
@@ -70,9 +71,27 @@ WITHOUT_EFFECT = frozenset().union(*PASSED_OVER.values())
 _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
     (("PLPLANE", "PLSOLID"), "materials are linear here"),
     (
-        ("SEMPLN", "CSUPER", "SEEXCLD", "SELOAD"),
-        "images and external superelements are not; give BEGIN SUPER with SELOC",
+        ("CGEN", "EGRID", "GRIDG", "SPCG", "GRIDD", "GRIDMOD", "GRIDU"),
+        "the generator MSGMESH is not; give the cards that it makes",
     ),
+    (
+        ("ADAPT", "FEEDGE", "FEFACE", "GMBC", "GMBND", "GMLOAD", "GMSPC", "GMINT")
+        + ("PVAL", "PINTC", "PINTS", "OUTPUT", "TEMPF"),
+        "p-elements and interfaces are not",
+    ),
+    (
+        ("ACMODL", "MAT10", "PANEL", "ACPLNW", "AMLREG", "CHACAB", "CHACBR", "CAABSF")
+        + ("CACINF", "ACADAPT", "ACPOLE", "ALOAD", "ACFPM", "TRMC", "PMIC"),
+        "fluids (acoustics) are not",
+    ),
+    (
+        ("AXIC", "CCONEAX", "FORCEAX", "PCONEAX", "RINGAX", "MOMAX", "SPCAX", "PRESAX")
+        + ("TEMPAX", "CTRIAX", "PTRIAX", "CTRAX", "CQUADX", "PLOADX", "PAXSYMH"),
+        "bodies of revolution are not",
+    ),
+    (("CPLSTN", "CPLSTS", "PPLANE"), "plane strain and plane stress solids are not"),
+    (("PCOMPS", "PCOMPLS"), "layered solids are not"),
+    (("RSSCON",), "give RBE3 or a shell within the solids instead"),
 )
 
 

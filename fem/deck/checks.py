@@ -221,9 +221,20 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected
         absent = _members(deck, attribute)
         if attribute in _MAY_BE_ABSENT:
             notices += [f"{text}; it constrains nothing" for text in absent]
+        elif attribute == "load" and _some_there(deck):
+            notices += [f"warning: {text}; it loads nothing" for text in absent]
         else:
             problems += absent
     return Selected(list(dict.fromkeys(problems)), list(dict.fromkeys(notices)))
+
+
+def _some_there(deck: Deck) -> bool:
+    """Whether each selected LOAD has a set that is there."""
+    chosen = [subcase.load for subcase in deck.case_control]
+    known = ids(deck.cards, STATIC_LOADS, "sid")
+    rows = deck.cards["LOAD"]
+    named = rows[rows["sid"].isin(chosen)]["lids"]
+    return all(np.isin(lids, known).any() for lids in named)
 
 
 def _members(deck: Deck, attribute: str) -> list[str]:

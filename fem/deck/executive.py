@@ -67,6 +67,7 @@ def read_executive(lines: Iterable[Line]) -> Executive:
     """Number of the solution and the statements of the section."""
     result = Executive()
     statements, dmap, missing = [], False, []
+    unknown: tuple[str, str] | None = None
     for line in lines:
         text = line.text.split("$")[0].strip()
         if not text:
@@ -89,16 +90,25 @@ def read_executive(lines: Iterable[Line]) -> Executive:
         elif name in SOLUTIONS:
             result.sol = SOLUTIONS[name]
         else:
-            result.problems.append(
-                f"{line.file}:{line.number}: SOL {name}: expected a number or a name "
-                f"such as SEMODES{nearest(name, list(SOLUTIONS))}"
-            )
+            unknown = f"{line.file}:{line.number}: SOL {name}", name
     result.notices += [
         f"{text}: no such file; read as DMAP, without effect" for text in missing
     ]
-    if dmap:
+    if unknown and not result.sol:
+        result.problems.append(_unknown(*unknown, own=dmap))
+    elif dmap:
         result.notices.append(
             "DMAP statements of the executive control are not executed"
         )
     result.statements = tuple(statements)
     return result
+
+
+def _unknown(place: str, name: str, *, own: bool) -> str:
+    """What a SOL is that has no number here; `own`: the deck has DMAP statements."""
+    if own:
+        return f"{place}: a program of the deck's own in DMAP, which is not carried out"
+    return (
+        f"{place}: expected a number or a name such as SEMODES"
+        f"{nearest(name, list(SOLUTIONS))}"
+    )

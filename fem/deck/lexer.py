@@ -7,6 +7,7 @@ continuation, whatever format the lines have.
 
 import re
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from fem.deck.replication import repetitions, replicate
@@ -95,6 +96,7 @@ class _Reader:
         self.card: RawCard | None = None
         self.open_markers: dict[str, RawCard] = {}
         self.rule: list[str] = []
+        self.goes_on = False  # the last line ended with a comma
         self.unread: list[tuple[Line, str, str]] = []
 
     def read(self, lines: Iterable[Line]) -> Bulk:
@@ -133,6 +135,9 @@ class _Reader:
         self.bulk.problems.append(f"{line.file}:{line.number}: {text}")
 
     def take(self, line: Line, text: str) -> None:
+        if self.goes_on and text.lstrip()[:1].isdigit() and "," in text[:10]:
+            text = f",{text.lstrip()}"
+        self.goes_on = "," in text[:10] and text.rstrip()[-1:] == ","
         head, data, marker, large = split_line(text)
         width = 4 if large else 8
         # A free-field line with more fields goes on as if it were continued.
@@ -145,6 +150,9 @@ class _Reader:
             self.replication(line, text, head, data)
         elif _NAME.match(name := head.rstrip("*").rstrip()):
             fields = [name, *data]
+            if self.card is not None and name == self.card.name and "==" in data:
+                with suppress(Malformed):
+                    fields = replicate(self.card.fields, data)
             self.card = RawCard(fields, line.file, line.number, marker, width)
             self.bulk.cards.append(self.card)
             if marker:

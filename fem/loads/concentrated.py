@@ -10,7 +10,6 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
-from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points
 
@@ -76,14 +75,10 @@ def _directed(
 
 
 def _at_scalar_points(points: Points, rows: pd.DataFrame) -> Terms:
+    """SLOAD; at a grid it acts along T1 of the displacement frame (MSC's guide)."""
     ids = rows["id"].to_numpy(np.int64)
     grids = ~np.isin(ids, points.spoint_id)
-    if grids.any():
-        raise InputError(
-            f"{where('SLOAD', row)}: {row['id']} is a grid, expected a scalar point"
-            for _, row in rows[grids].iterrows()
-        )
-    return points.dof(ids, 0), rows["f"].to_numpy(np.float64)
+    return points.dof(ids, grids.astype(np.int64)), rows["f"].to_numpy(np.float64)
 
 
 def _at_freedoms(points: Points, rows: pd.DataFrame) -> Terms:

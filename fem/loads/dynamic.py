@@ -16,7 +16,14 @@ from fem.geometry.points import Points
 from fem.loads.concentrated import CONCENTRATED
 from fem.loads.element_loads import ElementLoads, below_each_other, side_by_side
 from fem.loads.static import CARDS, static_element_loads, static_load
-from fem.loads.time_functions import Delayed, Pulse, Table, TimeFunction
+from fem.loads.time_functions import (
+    Delayed,
+    Pulse,
+    Scaled,
+    Series,
+    Table,
+    TimeFunction,
+)
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -170,6 +177,8 @@ def table_notices(deck: "Deck", subcase: Subcase, end: float) -> list[str]:
             cards = deck.cards["DELAY"]
             delays |= set(cards[cards["sid"] == row["delayid"]]["t"].astype(float))
         for delay in sorted(delays):
+            if not isinstance(table, Table):
+                continue
             beyond = table.continued(-delay, end - delay)
             if beyond:
                 given = " and ".join(f"{v:.6g} at {t + delay:.6g} s" for t, v in beyond)
@@ -184,12 +193,16 @@ def table_notices(deck: "Deck", subcase: Subcase, end: float) -> list[str]:
     return notices
 
 
-def table_function(deck: "Deck", tid: int) -> Table:
-    """TABLED1 of that id.
+def table_function(deck: "Deck", tid: int) -> TimeFunction:
+    """TABLED1 to TABLED4 of that id.
 
     Raises:
         InputError: it does not exist, or has a logarithm of what is not positive.
     """
+    others = deck.cards["TABLED2"]
+    others = others[others["tid"] == tid]
+    if not others.empty:
+        return _shifted(others.iloc[0])
     tables = deck.cards["TABLED1"]
     found = tables[tables["tid"] == tid]
     if found.empty:
@@ -207,6 +220,15 @@ def table_function(deck: "Deck", tid: int) -> Table:
         log_y=row["yaxis"] == "LOG",
         flat=bool(row["extrap"]),
     )
+
+
+def _shifted(row: pd.Series) -> TimeFunction:
+    """TABLED2, TABLED3 or TABLED4."""
+    if row["kind"] == 4:
+        table = Series(terms=row["ys"], lowest=row["xs"][0], highest=row["xs"][1])
+        return Scaled(table, float(row["x1"]), float(row["x2"]))
+    table = Table(x=row["xs"], y=row["ys"], flat=bool(row["extrap"]))
+    return Scaled(table, float(row["x1"]), float(row["x2"]))
 
 
 def pattern_of(

@@ -114,6 +114,36 @@ class Pulse:
 
 
 @dataclass(frozen=True)
+class Scaled:
+    """TABLED2, TABLED3: a function of (x - origin) / scale.
+
+    Series of TABLED4 have their limits in x itself.
+    """
+
+    function: "Table | Series"
+    origin: float
+    scale: float
+
+    def __call__(self, time: Float64) -> Float64:
+        x = np.asarray(time, dtype=np.float64)
+        if isinstance(self.function, Series):
+            x = np.clip(x, self.function.lowest, self.function.highest)
+        return self.function((x - self.origin) / self.scale)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Series:
+    """TABLED4: a power series; x beyond its limits counts as the limit."""
+
+    terms: Float64
+    lowest: float
+    highest: float
+
+    def __call__(self, time: Float64) -> Float64:
+        return np.polynomial.polynomial.polyval(np.asarray(time, float), self.terms)
+
+
+@dataclass(frozen=True)
 class Delayed:
     """A function that begins later by `delay` (s)."""
 

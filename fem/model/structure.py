@@ -23,6 +23,7 @@ from fem.algebra.linear_solver import SingularMatrixError
 from fem.arrays import Float64, Int64
 from fem.constraints.autospc import Singularities, grouped
 from fem.constraints.elimination import Elimination
+from fem.constraints.sets import freedoms_of
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.model.assembly import Matrices
@@ -159,8 +160,12 @@ class Structure:
 
     @property
     def support_dof(self) -> Int64:
-        """(r,) rows of the g-set that SUPORT names."""
-        return self.model.support_dof
+        """(r,) rows of the g-set that SUPORT names, and SUPORT1 of the subcase."""
+        chosen = self.subcase.suport1
+        if not chosen:
+            return self.model.support_dof
+        own = freedoms_of(self.deck, self.points, "SUPORT1", chosen)
+        return np.union1d(self.model.support_dof, own)
 
     @property
     def damping_g(self) -> Damping:

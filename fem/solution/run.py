@@ -36,6 +36,8 @@ _SOLVERS: dict[int, _Solver] = {
     112: solve_transients,
 }
 _TRANSIENT = frozenset({109, 112})
+# What follows from the results of other subcases, and is not computed here.
+_NOT_RUN = frozenset({"RANDOM"})
 
 
 def run_deck(deck: Deck, path: Path, options: Options | None = None) -> Path:
@@ -66,6 +68,7 @@ def _run(deck: Deck, path: Path, options: Options) -> Path:
     structure = Structure(deck, work[0][1][0])
     with ResultFile(path) as results:
         _introduce(structure, options)
+        _say_what_is_not_run(deck, options)
         results.write_model(structure)
         if options.envelope and not _TRANSIENT.intersection(n for n, _ in work):
             options.console.say(
@@ -127,6 +130,8 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
         )
     work: dict[int, list[Subcase]] = {}
     for subcase in deck.case_control:
+        if subcase.analysis.upper() in _NOT_RUN:
+            continue  # said by `_say_what_is_not_run`
         number = ANALYSES.get(subcase.analysis.upper(), deck.sol)
         if number not in _SOLVERS:
             raise InputError(_unsupported(deck.path, number, deck.case_control))
@@ -161,6 +166,15 @@ def _refuse_what_is_not_carried_out(
     ]
     if problems:
         raise InputError(dict.fromkeys(problems))
+
+
+def _say_what_is_not_run(deck: Deck, options: Options) -> None:
+    for subcase in deck.case_control:
+        if subcase.analysis.upper() in _NOT_RUN:
+            options.console.say(
+                f"notice: subcase {subcase.id}, ANALYSIS = {subcase.analysis}, is not "
+                "run: the other subcases do not depend on it"
+            )
 
 
 def _say_what_is_left_out(

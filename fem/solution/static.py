@@ -174,10 +174,7 @@ def _loads(
         if held.any():
             elimination = elimination.with_enforced(dof[held], value[held])
         if not (subcase.load or motions or elimination.enforced.any()):
-            raise InputError(
-                f"{model.deck.path}: subcase {subcase.id} selects no LOAD and enforces "
-                "no displacement, temperatures move nothing; there is nothing to solve"
-            )
+            _at_rest(model, group, subcase, options)
         mass = model.with_subcase(subcase).matrices.mass if subcase.load else None
         load = (
             static_load(model.deck, model.points, subcase.load, mass)
@@ -187,6 +184,23 @@ def _loads(
         loads.append(load if motions is None else load + motions.load(model.points))
         eliminations.append(elimination)
     return np.stack(loads, axis=1), eliminations
+
+
+def _at_rest(
+    model: Structure, group: list[Subcase], subcase: Subcase, options: Options
+) -> None:
+    """A subcase without load is said; where no other of its group has one, refused.
+
+    Raises:
+        InputError: there is nothing to solve.
+    """
+    text = (
+        f"subcase {subcase.id} selects no LOAD and enforces no displacement, "
+        "temperatures move nothing"
+    )
+    if not any(other.load or other.temperature for other in group):
+        raise InputError(f"{model.deck.path}: {text}; there is nothing to solve")
+    options.console.say(f"warning: {text}: all its results are zero")
 
 
 def _solve(

@@ -200,26 +200,90 @@ def tstep(f: Fields) -> Rows:
 
 
 def seconct(f: Fields) -> Rows:
-    """Pairs of points that two superelements share; SEIDB 0 is the residual one."""
-    texts = [text for text in f.card.fields[9:] if text]
-    if "THRU" in texts:
-        first = f.integer(9, "GIDA1"), f.integer(12, "GIDB1")
-        last = f.integer(11, "GIDA2"), f.integer(14, "GIDB2")
-        if (
-            f.text(10) != "THRU"
-            or f.text(13) != "THRU"
-            or (last[0] - first[0] != last[1] - first[1])
-        ):
-            raise Malformed("expected GIDA1 THRU GIDA2 GIDB1 THRU GIDB2, equally long")
-        a, b = (np.arange(i, j + 1) for i, j in zip(first, last))
-    else:
-        pairs = [
-            (f.integer(k, "GIDA"), f.integer(k + 1, "GIDB")) for k in f.groups(9, 2)
-        ]
-        columns = zip(*pairs) if pairs else ((), ())
-        a, b = (np.array(column, dtype=np.int64) for column in columns)
+    """Pairs of points that two superelements share; SEIDB 0 is the residual one.
+
+    Each line has pairs, or GIDA1 THRU GIDA2 GIDB1 THRU GIDB2.
+    """
+    first: list[int] = []
+    second: list[int] = []
+    for line in range(9, len(f), 8):
+        if "THRU" in (f.text(line + 1), f.text(line + 4)):
+            a, b = _range(f, line, "GIDA"), _range(f, line + 3, "GIDB")
+            if len(a) != len(b):
+                raise Malformed(
+                    "expected GIDA1 THRU GIDA2 GIDB1 THRU GIDB2, equally long"
+                )
+        else:
+            at = [k for k in range(line, line + 8, 2) if f.text(k) or f.text(k + 1)]
+            a = [f.integer(k, "GIDA") for k in at]
+            b = [f.integer(k + 1, "GIDB") for k in at]
+        first += a
+        second += b
     row = {"sea": f.integer(1, "SEIDA"), "seb": f.integer(2, "SEIDB")}
-    return [{**row, "gidas": a, "gidbs": b}]
+    columns = (np.array(ids, dtype=np.int64) for ids in (first, second))
+    return [{**row, **dict(zip(("gidas", "gidbs"), columns))}]
+
+
+def _range(f: Fields, at: int, name: str) -> list[int]:
+    """Ids of FIRST THRU LAST."""
+    if f.text(at + 1) != "THRU":
+        raise Malformed(f"expected {name}1 THRU {name}2")
+    return list(range(f.integer(at, f"{name}1"), f.integer(at + 2, f"{name}2") + 1))
+
+
+def tabled2(f: Fields) -> Rows:
+    """TABLED2: pairs whose x counts from X1."""
+    xs, ys = _pairs_to_end(f)
+    return [_shifted_table(f, 2, 1.0, xs, ys, f.integer(3, "EXTRAP", 0))]
+
+
+def tabled3(f: Fields) -> Rows:
+    """TABLED3: pairs over (x - X1) / X2."""
+    scale = f.real(3, "X2")
+    if scale == 0.0:
+        raise Malformed("X2 is 0, expected another number")
+    xs, ys = _pairs_to_end(f)
+    return [_shifted_table(f, 3, scale, xs, ys, f.integer(4, "EXTRAP", 0))]
+
+
+def tabled4(f: Fields) -> Rows:
+    """TABLED4: coefficients of a power series in (x - X1) / X2; X3, X4 its limits."""
+    scale = f.real(3, "X2")
+    if scale == 0.0:
+        raise Malformed("X2 is 0, expected another number")
+    limits = np.array([f.real(4, "X3"), f.real(5, "X4")])
+    terms = []
+    for k in range(9, len(f)):
+        if f.text(k) == "ENDT":
+            break
+        terms.append(f.real(k, "A", 0.0))
+    return [_shifted_table(f, 4, scale, limits, np.array(terms), 0)]
+
+
+def _shifted_table(
+    f: Fields, kind: int, scale: float, xs: np.ndarray, ys: np.ndarray, extrap: int
+) -> Row:
+    row = {"tid": f.integer(1, "TID"), "x1": f.real(2, "X1", 0.0), "x2": scale}
+    return {**row, "kind": kind, "xs": xs, "ys": ys, "extrap": extrap}
+
+
+def _pairs_to_end(f: Fields) -> tuple[np.ndarray, np.ndarray]:
+    """Pairs x, y from the second line to ENDT; SKIP leaves one out."""
+    pairs = []
+    for k in range(9, len(f), 2):
+        if "ENDT" in (f.text(k), f.text(k + 1)):
+            break
+        if "SKIP" in (f.text(k), f.text(k + 1)) or not f.text(k):
+            continue
+        pairs.append((f.real(k, "X"), f.real(k + 1, "Y")))
+    if len(pairs) < 2:
+        raise Malformed("expected at least two points")
+    xs, ys = np.array(pairs).T
+    if xs[0] > xs[-1]:
+        xs, ys = xs[::-1], ys[::-1]
+    if (np.diff(xs) < 0.0).any():
+        raise Malformed("X must ascend")
+    return xs, ys
 
 
 def temprb(f: Fields) -> Rows:

@@ -49,6 +49,7 @@ RECORDS = (
     Card(name="SPC1", group=_GROUP, read=lists.spc1, table="SPC"),
     Card(name="SPCADD", group=_GROUP, read=lists.add, more="sid:i sets:*"),
     Card(name="SUPORT", group=_GROUP, fields=_FREEDOMS),
+    Card(name="SUPORT1", group=_GROUP, fields=f"sid:i {_FREEDOMS}"),
     # Of the sets with fixed boundary, reductions here take all.
     Card(name="ASET", group=_SETS, fields=_FREEDOMS),
     Card(name="ASET1", group=_SETS, read=lists.freedoms, table="ASET"),

@@ -23,7 +23,7 @@ RECORDS = (
         group=_GROUP,
         fields=f"{_TLOAD} tid:u us0:f=0. vs0:f=0.",
         finish=finish.tload1,
-        more="delayid:i tid:i>TABLED1",
+        more="delayid:i tid:i>TABLED1|TABLED2",
         load=True,
     ),
     Card(
@@ -39,7 +39,7 @@ RECORDS = (
         group=_GROUP,
         fields="sid:i exciteid:i delay:u=0 phase:u=0 tc:u=0 td:u=0 type:s=0",
         finish=finish.rload1,
-        more="delayid:i phaseid:i tcid:i>TABLED1 tdid:i>TABLED1",
+        more="delayid:i phaseid:i tcid:i>TABLED1|TABLED2 tdid:i>TABLED1|TABLED2",
         load=True,
     ),
     Card(
@@ -47,7 +47,7 @@ RECORDS = (
         group=_GROUP,
         fields="sid:i exciteid:i delay:u=0 phase:u=0 tb:u tp:u=0 type:s=0",
         finish=finish.rload2,
-        more="delayid:i phaseid:i tbid:i>TABLED1 tpid:i>TABLED1",
+        more="delayid:i phaseid:i tbid:i>TABLED1|TABLED2 tpid:i>TABLED1|TABLED2",
         load=True,
     ),
     Card(
@@ -97,6 +97,15 @@ RECORDS = (
         ids="own",
         load=True,
     ),
+    Card(
+        name="TABLED2",
+        group=_GROUP,
+        read=lists.tabled2,
+        more="tid:i x1:f x2:f kind:i xs:* ys:* extrap:i",
+        load=True,
+    ),
+    Card(name="TABLED3", group=_GROUP, read=lists.tabled3, table="TABLED2"),
+    Card(name="TABLED4", group=_GROUP, read=lists.tabled4, table="TABLED2"),
     Card(
         name="TIC",
         group=_GROUP,
