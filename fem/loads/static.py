@@ -33,6 +33,8 @@ CARDS = (*CONCENTRATED, *_ON_ELEMENTS, *ACCELERATIONS)
 def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
     """Sets and their factors that a set stands for: itself, or those of a LOAD card.
 
+    Sets of a LOAD card that are not there load nothing; `check_selected` says so.
+
     Raises:
         InputError: the set is empty, or a LOAD card combines itself.
     """
@@ -44,13 +46,18 @@ def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
             factors[lid] = factors.get(lid, 0.0) + row["s"] * scale
     if cards.empty:
         factors[sid] = 1.0
-    for number in factors:
-        if not any((deck.cards[name]["sid"] == number).any() for name in _SETS):
-            raise InputError(
-                f"{deck.path}: load set {number} is not defined"
-                + (f" (LOAD {sid})" if number != sid else "")
-            )
-    return factors
+    known = {
+        number: factor
+        for number, factor in factors.items()
+        if any((deck.cards[name]["sid"] == number).any() for name in _SETS)
+    }
+    if not known:
+        absent = ", ".join(map(str, factors))
+        raise InputError(
+            f"{deck.path}: load set {absent} is not defined"
+            + (f" (LOAD {sid})" if sid not in factors else "")
+        )
+    return known
 
 
 _SETS = (*CARDS, "SPCD")
