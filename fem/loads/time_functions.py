@@ -140,7 +140,8 @@ class Series:
     highest: float
 
     def __call__(self, time: Float64) -> Float64:
-        return np.polynomial.polynomial.polyval(np.asarray(time, float), self.terms)
+        x = np.asarray(time, dtype=np.float64)
+        return np.asarray(np.polynomial.polynomial.polyval(x, self.terms))
 
 
 @dataclass(frozen=True)

@@ -169,3 +169,28 @@ def test_subcom_takes_the_last_subcases(read):
     assert cases[3].combination == ((2, 0.5),)
     assert cases[5].combination == ((1, 1.0), (2, 1.0), (5, 1.0))
     assert [c.load for c in cases] == [1, 1, 0, 0, 1, 0]
+
+
+_BULK = "GRID,1\nSPC1,1,123456,1\nFORCE,1,1,,1.,1.\n"
+
+
+@pytest.mark.parametrize("text", ["PARAM,POST,0", "param post 0", "PARAM POST = 0"])
+def test_parameters_of_the_case_control(read, text):
+    assert read(case=text).params["POST"] == 0
+
+
+@pytest.mark.parametrize(
+    ("sol", "number"), [("1,3", 101), ("STATIC", 101), ("24", 101), ("5", 105)]
+)
+def test_older_names_of_solutions(read, sol, number):
+    deck = read(
+        f"SOL {sol}\nCEND\nMETHOD = 4\nBEGIN BULK\nEIGRL,4,,,1\n{_BULK}", alone=True
+    )
+    assert deck.sol == number
+    assert any(f"carried out as SOL {number}" in text for text in deck.notices)
+
+
+def test_a_solution_in_dmap_of_the_deck_is_named(read):
+    text = f"SOL MINE\nCOMPILE MINE\nCEND\nBEGIN BULK\n{_BULK}"
+    with pytest.raises(InputError, match="SOL MINE: a program of the deck's own"):
+        read(text, alone=True)

@@ -192,3 +192,16 @@ def test_superelements_are_joined_or_read_one_by_one(tmp_path):
     deck = read_deck(path, superelements=True)
     assert deck.superelements[1].cards["GRID"]["id"].tolist() == [1, 2]
     assert np.array_equal(deck.cards["SECONCT"]["gidas"][0], [1])
+
+
+def test_free_fields_go_on_after_a_comma(read):
+    deck = read("SET1,9,1,2,3,4,5,6,7,\n1054,1002,1025,\n1106,5\n")
+    (ids,) = deck.cards["SET1"]["ids"]
+    assert set(ids) == {1, 2, 3, 4, 5, 6, 7, 1054, 1002, 1025, 1106}
+
+
+def test_equal_signs_in_a_card_with_its_name_copy_the_card_before(read):
+    deck = read("PBAR,7,1,.1,.01,.02,.03\nPBAR,8,1,==\nMAT1,3,1.+7,,.3\nMAT1,4,==\n")
+    bars = deck.cards["PBAR"].set_index("pid")
+    assert bars.loc[8, "j"] == bars.loc[7, "j"] == 0.03
+    assert deck.cards["MAT1"].set_index("mid").loc[4, "e"] == 1e7

@@ -151,3 +151,17 @@ def test_steps_that_are_not_there_are_named(model):
     m = model(BASE, "TSTEP = 3")
     with pytest.raises(InputError, match="TSTEP = 3, expected one of none"):
         time_steps(m.deck, m.deck.case_control[0])
+
+
+@pytest.mark.parametrize(
+    ("card", "at", "value"),
+    [
+        ("TABLED2,2,1.\n,0.,5.,2.,9.,ENDT", 2.0, 7.0),
+        ("TABLED3,2,1.,2.\n,0.,5.,2.,9.,ENDT", 3.0, 7.0),
+        ("TABLED4,2,1.,2.,0.,3.\n,5.,1.,2.,ENDT", 3.0, 8.0),
+        ("TABLED4,2,1.,2.,0.,3.\n,5.,1.,2.,ENDT", 4.0, 8.0),
+    ],
+)
+def test_tables_with_a_shifted_argument(model, card, at, value):
+    _, found = excitation(model, f"TLOAD1,5,7,,,2\nDAREA,7,2,1,1.\n{card}\n")
+    assert found.evaluate([at])[0, 0] == pytest.approx(value)

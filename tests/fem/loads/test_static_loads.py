@@ -52,11 +52,15 @@ def test_force_without_a_direction_is_named(loaded):
         loaded(BASE + "FORCE1,1,1,7.,2,2\n")
 
 
-def test_scalar_load_and_a_grid_in_its_place(loaded):
-    result = loaded(BASE + "SLOAD,1,91,-500.,91,100.\n")
+def test_scalar_loads_act_on_t1_of_a_grid(loaded):
+    result = loaded(BASE + "SLOAD,1,91,-500.,91,100.\nSLOAD,1,2,7.\n")
     assert result.load[result.points.dof(91, 0)] == -400.0
-    with pytest.raises(InputError, match="2 is a grid, expected a scalar point"):
-        loaded(BASE + "SLOAD,1,2,-500.\n")
+    assert result.load[result.points.dof(2, 1)] == 7.0
+
+
+def test_a_set_that_load_lacks_loads_nothing(loaded):
+    bulk = BASE + "FORCE,11,1,,1.,1.,0.,0.\nLOAD,1,2.,3.,11,-1.,12\n"
+    np.testing.assert_allclose(loaded(bulk).at(1)[:3], [6, 0, 0])
 
 
 def test_load_card_combines_sets(loaded):

@@ -168,3 +168,18 @@ def test_factors_of_parameters_on_matrices(tmp_path):
     m = fem.Structure.from_deck(fem.read_deck(path)).matrices
     found = [x.toarray().item() for x in (m.stiffness, m.mass, m.damping)]
     assert found == [6.0, 15.0, 28.0]
+
+
+@pytest.mark.parametrize(("sol", "held"), [(101, 3), (103, 0)])
+def test_freedoms_in_no_matrix_are_held_with_autospc_off(tmp_path, sol, held):
+    """A grid with mass and without stiffness is inert in statics only."""
+    path = tmp_path / "a.bdf"
+    path.write_text(
+        f"SOL {sol}\nCEND\nLOAD = 1\nMETHOD = 2\nBEGIN BULK\nEIGRL,2,,,1\n"
+        "FORCE,1,2,,1.,1.\nGRID,1,,,,,,123456\nGRID,2,,1.,,,,23456\n"
+        "GRID,3,,2.,,,,456\nCROD,1,1,1,2\nPROD,1,1,1.\nMAT1,1,1.,,.3,1.\n"
+        "CONM2,9,3,,1.\nPARAM,AUTOSPC,NO\nENDDATA\n"
+    )
+    structure = fem.Structure(fem.read_deck(path))
+    assert structure.size == 4 - held
+    assert any("AUTOSPC is off" in text for text in structure.notices) == bool(held)
