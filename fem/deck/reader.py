@@ -113,9 +113,9 @@ def read_deck(
     if executive.sol == 101 and any(c.temperature for c in case.subcases):
         problems += [
             f"{card.place}: {card.name} with TEMPERATURE(LOAD): temperatures over the "
-            "thickness of shells are not supported; expected TEMP, TEMPD or TEMPRB"
+            "thickness of shells at points are not supported; expected TEMPP1"
             for card in bulk.cards
-            if card.name in ("TEMPP1", "TEMPP3") and card.name not in ignore
+            if card.name == "TEMPP3" and card.name not in ignore
         ]
     parts = _superelements(path, sections, ignore, problems)
     if parts and not superelements and not problems:

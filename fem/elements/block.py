@@ -45,6 +45,16 @@ class Recovery:
         """
         return linear
 
+    def heated(self, relief: Float64, heat: Float64) -> tuple["Recovery", Float64]:
+        """The recovery under temperatures, and what these add to its quantities.
+
+        Args:
+            relief: (e, c_linear) what free expansion takes from them.
+            heat: (e, 2) degrees, and degrees per length over the thickness; results
+                that these leave where nothing hinders override it (plies).
+        """
+        return self, relief
+
 
 Kind = Literal["force", "stress", "strain", "failure"]
 

@@ -3,8 +3,11 @@
 An element that nothing hinders moves by u_0 and has no stress. Its load on the grids
 is K_e u_0, its forces and stresses are those of u - u_0: exact for uniform temperature,
 for bars also for gradients that are linear along them. An element takes the mean
-temperature of its grids. The strain is alpha (T - TREF), as in Nastran's linear statics
-(from memory; there TEMPERATURE(INITIAL) chooses constants of materials only).
+temperature of its grids, or what TEMPRB and TEMPP1 say of it. Laminates whose plies
+expand differently bend, and keep stresses in their plies (`shell_expansion`); with a
+gradient over the thickness (TEMPP1) shells bend, too. The strain is alpha (T - TREF),
+as in Nastran's linear statics (from memory; there TEMPERATURE(INITIAL) chooses
+constants of materials only).
 """
 
 from collections.abc import Sequence
@@ -19,6 +22,7 @@ from fem.deck.references import where
 from fem.elements.dense import DenseBlock
 from fem.elements.lines.line_block import LineBlock
 from fem.elements.lines.rod import Rod, stretched
+from fem.elements.shells.shell import Shell
 from fem.errors import InputError
 from fem.geometry.points import Points
 
@@ -27,7 +31,7 @@ if TYPE_CHECKING:
     from fem.deck.deck import Deck
     from fem.elements.block import ElementBlock
 
-TEMPERATURES = ("TEMP", "TEMPD", "TEMPRB")
+TEMPERATURES = ("TEMP", "TEMPD", "TEMPRB", "TEMPP1")
 
 
 @dataclass(frozen=True)
@@ -37,15 +41,22 @@ class FreeMotions:
     Attributes:
         blocks: elements that expand.
         motions: (e, n) for each block.
+        heats: (e, 2) for each block: degrees beyond TREF, and degrees per length over
+            the thickness of shells.
     """
 
     blocks: tuple["ElementBlock", ...]
     motions: tuple[Float64, ...]
+    heats: tuple[Float64, ...]
 
     def of(self, block: "ElementBlock") -> Float64 | None:
         """(e, n) of a block, None where it does not expand."""
         found = (u for own, u in zip(self.blocks, self.motions) if own is block)
         return next(found, None)
+
+    def heat_of(self, block: "ElementBlock") -> Float64:
+        """(e, 2) of a block that expands."""
+        return next(h for own, h in zip(self.blocks, self.heats) if own is block)
 
     def load(self, points: Points) -> Float64:
         """(g,) the forces K_e u_0, displacement frames."""
@@ -60,15 +71,16 @@ class FreeMotions:
 
 def summed(parts: Sequence[tuple[float, FreeMotions | None]]) -> FreeMotions | None:
     """A sum with factors; None: nothing expands."""
-    total: dict[int, tuple[ElementBlock, Float64]] = {}
+    total: dict[int, tuple[ElementBlock, Float64, Float64]] = {}
     for factor, part in parts:
-        for block, motion in zip(part.blocks, part.motions) if part else ():
-            before = total.get(id(block), (block, np.zeros(1)))[1]
-            total[id(block)] = block, before + factor * motion
+        if part is None:
+            continue
+        for block, motion, heat in zip(part.blocks, part.motions, part.heats):
+            _, u, h = total.get(id(block), (block, np.zeros(1), np.zeros(1)))
+            total[id(block)] = block, u + factor * motion, h + factor * heat
     if not total:
         return None
-    blocks, motions = zip(*total.values())
-    return FreeMotions(blocks, motions)
+    return FreeMotions(*zip(*total.values()))
 
 
 def free_motions(
@@ -77,25 +89,27 @@ def free_motions(
     """What the temperatures and the deformations of a subcase do to its elements.
 
     Raises:
-        InputError: a set that is not there, grids without temperature, laminates whose
-            plies expand differently, deformed elements that are no rods or bars; all.
+        InputError: a set that is not there, grids without temperature, elements with
+            mid-sides that bend, deformed elements that are no rods or bars; all.
     """
-    moved: dict[int, Float64] = {}
+    moved: dict[int, tuple[Float64, Float64]] = {}
     problems: list[str] = []
     if subcase.temperature:
         given = _Temperatures(deck, points, subcase.temperature)
         for k, block in enumerate(blocks):
-            motion = _expanded(deck, given, block, problems)
-            if motion is not None:
-                moved[k] = motion
+            expanded = _expanded(deck, given, block, problems)
+            if expanded is not None:
+                moved[k] = expanded
     if subcase.deform:
         for k, motion in _deformed(deck, blocks, subcase.deform, problems):
-            moved[k] = moved.get(k, 0.0) + motion
+            before = moved.get(k, (0.0, np.zeros((len(motion), 2))))
+            moved[k] = before[0] + motion, before[1]
     if problems:
         raise InputError(problems)
     if not moved:
         return None
-    return FreeMotions(tuple(blocks[k] for k in moved), tuple(moved.values()))
+    motions, heats = zip(*moved.values())
+    return FreeMotions(tuple(blocks[k] for k in moved), motions, heats)
 
 
 class _Temperatures:
@@ -119,11 +133,17 @@ class _Temperatures:
         values = own["TEMP"]["t"].to_numpy(float)[on_grid]
         first = 6 * points.rows(ids[on_grid])
         self.at[first[:, None] + np.arange(6)] = values[:, None]
-        self.lines = own["TEMPRB"]
+        self.lines, self._shells = own["TEMPRB"], own["TEMPP1"]
 
     def of(self, block: "ElementBlock") -> Float64:
         """(e,) mean of the grids."""
         return self.at[block.dof].mean(axis=1)
+
+    def of_shells(self, block: "ElementBlock") -> tuple[Int64, Float64, Float64]:
+        """Positions in a block, mean temperatures and gradients (k,) over z."""
+        rows = self._shells[self._shells["eid"].isin(block.id)]
+        at = np.searchsorted(block.id, rows["eid"].to_numpy(np.int64))
+        return at, rows["tbar"].to_numpy(float), rows["tprime"].to_numpy(float)
 
     def of_lines(self, block: "ElementBlock") -> tuple[Int64, Float64, Float64]:
         """Positions in a block, mean temperatures, and gradients (k, 2, 2)."""
@@ -141,26 +161,39 @@ def _of(deck: "Deck", card: str, sid: int) -> pd.DataFrame:
 
 def _expanded(
     deck: "Deck", given: _Temperatures, block: "ElementBlock", problems: list[str]
-) -> Float64 | None:
-    """(e, n) motions of a block under the temperatures."""
+) -> tuple[Float64, Float64] | None:
+    """(e, n) motions of a block under the temperatures, and (e, 2) these."""
     per_degree = block.expansion() if isinstance(block, DenseBlock) else None
-    if per_degree is None or not np.any(per_degree):
+    if per_degree is None:
         return None
-    own = np.flatnonzero(np.isnan(per_degree).any(axis=1))
-    problems += [
-        f"{deck.path}: {block.card} {block.id[k]}: its plies or layers expand "
-        "differently under temperatures, which is not supported here"
-        for k in own[:20]
-    ]
     temperature, bent = given.of(block), np.zeros_like(per_degree)
-    at, mean, gradient = given.of_lines(block)
-    if len(at):
+    gradient = np.zeros(len(temperature))
+    if isinstance(block, LineBlock):
+        at, mean, slopes = given.of_lines(block)
         temperature[at] = mean
-        if isinstance(block, LineBlock):
-            whole = np.zeros((len(block.id), 2, 2))
-            whole[at] = gradient
-            bent = block.bent(whole)
+        whole = np.zeros((len(block.id), 2, 2))
+        whole[at] = slopes
+        bent = block.bent(whole)
+    elif isinstance(block, Shell):
+        at, mean, slopes = given.of_shells(block)
+        temperature[at], gradient[at] = mean, slopes
+        hot = gradient != 0.0
+        bent[hot] = gradient[hot, None] * block.bent()[hot]
+    else:
+        at, mean, _ = given.of_lines(block)
+        temperature[at] = mean
     moves = np.any(per_degree, axis=1)
+    if not moves.any() and not np.any(bent):
+        return None
+    curled = np.flatnonzero(
+        np.isnan(per_degree).any(axis=1) | np.isnan(bent).any(axis=1)
+    )
+    problems += [
+        f"{deck.path}: {block.card} {block.id[k]}: temperatures bend it (its plies "
+        "expand differently, or TEMPP1), which elements with mid-sides do not model "
+        "here; expected CQUAD4 or CTRIA3"
+        for k in curled[:20]
+    ]
     unknown = np.flatnonzero(np.isnan(temperature) & moves)
     problems += [
         f"{deck.path}: {block.card} {block.id[k]}: a grid of it has no temperature, "
@@ -168,7 +201,8 @@ def _expanded(
         for k in unknown[:20]
     ]
     change = np.where(moves, temperature - getattr(block, "tref", 0.0), 0.0)
-    return change[:, None] * per_degree + bent
+    heat = np.stack([change, gradient], axis=1)
+    return change[:, None] * per_degree + bent, heat
 
 
 def _deformed(

@@ -7,7 +7,7 @@ M = int sigma z dz, hence B = -T^2 G4.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,9 +19,14 @@ from fem.errors import InputError
 from fem.properties.elasticity import ElasticityTable
 from fem.properties.failure import Failure
 from fem.properties.laminate import Laminate
+from fem.properties.shell_expansion import (
+    NO_EXPANSION,
+    ShellExpansion,
+    of_laminate,
+    of_section,
+)
 from fem.properties.shell_section import (
     ShellSection,
-    strain_rotation,
     turned_flexibility,
     turned_stiffness,
 )
@@ -51,7 +56,7 @@ class ShellProperty:
         ge: structural damping coefficient.
         laminate: the plies, None for PSHELL.
         ply_id: (p,) numbers of the plies.
-        alpha: (3,) strain per degree in material axes; NaN: plies differ in it.
+        expansion: under temperatures.
         tref: temperature without strain.
         failure: what FT and SB measure the plies against, None: nothing.
     """
@@ -73,7 +78,7 @@ class ShellProperty:
     laminate: Laminate | None = None
     ply_id: Int64 | None = None
     failure: Failure | None = None
-    alpha: Float64 = field(default_factory=lambda: np.zeros(3))
+    expansion: ShellExpansion = NO_EXPANSION
     tref: float = 0.0
 
     @property
@@ -156,30 +161,31 @@ def _pshell(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
     membrane = plane(mids["mid1"])
     if plane_strain:
         membrane = _plane_strain(membrane, name)
+    matrices = (membrane, -plane(mids["mid4"]), ratio / 12.0 * plane(mids["mid2"]))
     return ShellProperty(
         card="PSHELL",
         pid=int(row["pid"]),
-        membrane=membrane,
-        coupling=-plane(mids["mid4"]),
-        bending=ratio / 12.0 * plane(mids["mid2"]),
+        membrane=matrices[0],
+        coupling=matrices[1],
+        bending=matrices[2],
         shear_flexibility=flexibility,
         nominal=1.0,
         thickness=float(row["t"]),
         inertia_ratio=ratio,
         fibre=np.array([row["z1"], row["z2"]], float),
-        alpha=_alike([materials[m].plane_alpha for m in mids.values() if m]),
+        expansion=of_section(
+            matrices,
+            *(
+                materials[mids[k]].plane_alpha if mids[k] else np.zeros(3)
+                for k in ("mid1", "mid2")
+            ),
+        ),
         tref=first.tref,
         density=first.rho,
         nsm=float(np.nan_to_num(float(row["nsm"]))),
         mass_height=0.0,
         ge=first.ge,
     )
-
-
-def _alike(alpha: list[Float64]) -> Float64:
-    """(3,) what all of these are, NaN where they differ."""
-    same = np.ptp(alpha, axis=0).max() <= 1e-12 * np.abs(alpha).max()
-    return alpha[0] if same else np.full(3, np.nan)
 
 
 def _plane_strain(stress: Float64, name: str) -> Float64:
@@ -207,7 +213,9 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
         )
     mids = np.array(row["mids"], dtype=np.int64)
     _check(materials.problem(int(m), PLATE, name) for m in dict.fromkeys(mids))
-    laminate = _stack(row, materials, symmetric=lam.startswith("SY"))
+    symmetric = lam.startswith("SY")
+    order = np.concatenate([mids, mids[::-1]]) if symmetric else mids
+    laminate = _stack(row, materials, symmetric=symmetric)
     a, b, d = laminate.stiffness()
     shear = laminate.transverse_flexibility()
     if lam.endswith(("SMEAR", "BEND")):
@@ -239,15 +247,14 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
         mass_height=laminate.mass_height(),
         ge=float(np.nan_to_num(float(row["ge"]))),
         laminate=laminate,
-        alpha=_alike(
-            [
-                strain_rotation(-np.radians(theta)) @ materials[int(mid)].plane_alpha
-                for mid, theta in zip(mids, row["thetas"])
-            ]
+        expansion=of_laminate(
+            laminate,
+            (a, b, d),
+            np.stack([materials[int(mid)].plane_alpha for mid in order]),
         ),
         tref=float(np.nan_to_num(float(row["tref"]))),
         ply_id=plies,
-        failure=_failure(row, materials, symmetric=lam.startswith("SY")),
+        failure=_failure(row, materials, symmetric=symmetric),
     )
 
 

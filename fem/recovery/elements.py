@@ -162,10 +162,13 @@ def element_tables(
         if not len(recovery.id):
             continue
         key = (recovery.table, recovery.columns)
-        part = _part(points, block, kind, detail, recovery, keep, loads, moving)
         motion = None if free is None or kind == "strain" else free.of(block)
-        if motion is not None:
+        relief = None
+        if free is not None and motion is not None:
             relief = -np.einsum("ecn,en->ec", recovery.matrix, motion[keep])
+            recovery, relief = recovery.heated(relief, free.heat_of(block)[keep])
+        part = _part(points, block, kind, detail, recovery, keep, loads, moving)
+        if relief is not None:
             part = replace(part, of_loads=_beside(part.of_loads, relief))
         groups.setdefault(key, []).append(part)
     return [_table(name, columns, parts) for (name, columns), parts in groups.items()]

@@ -293,3 +293,11 @@ def temprb(f: Fields) -> Rows:
         row[name] = f.real(3 + k, name.upper(), 0.0)
     written, between = f.ids(17, "EID2") if len(f) > 17 else ([], [])
     return [{**row, "eid": e} for e in (f.integer(2, "EID1"), *written, *between)]
+
+
+def tempp1(f: Fields) -> Rows:
+    """Temperatures of shells: EID1 with the fields, further ones below."""
+    row: Row = {"sid": f.integer(1, "SID")}
+    row["tbar"], row["tprime"] = f.real(3, "TBAR"), f.real(4, "TPRIME", 0.0)
+    written, between = f.ids(9, "EID2") if len(f) > 9 else ([], [])
+    return [{**row, "eid": e} for e in (f.integer(2, "EID1"), *written, *between)]

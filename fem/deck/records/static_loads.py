@@ -62,6 +62,14 @@ RECORDS = (
         more="sid:i eid:i ta:f tb:f tp1a:f tp1b:f tp2a:f tp2b:f",
         load=True,
     ),
+    # Mean temperature and gradient along z; TS1 and TS2 at the fibres are passed over.
+    Card(
+        name="TEMPP1",
+        group=GROUP,
+        read=lists.tempp1,
+        more="sid:i eid:i tbar:f tprime:f",
+        load=True,
+    ),
     _regular("DEFORM", "sid:i (eid:i d:f)"),
     _regular("SPCD", "sid:i (g:i>POINT c:c=0 d:f=0.)"),
     Card(

@@ -1,12 +1,13 @@
 """Failure indices of shells as columns of a result table."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from fem.arrays import Float64, Int64
 from fem.deck.records.shells import PLY_FAILURE, of_plies
 from fem.elements.block import Recovery
+from fem.elements.shells.shell_recovery import with_heat
 from fem.properties.failure import Failure
 
 
@@ -23,12 +24,25 @@ class FailureRecovery(Recovery):
         laminate: (e,) which of the laminates.
         maps: per laminate (p, 2, 5, 8): stresses and strains 11 22 12 1z 2z of its
             plies from resultants in material axes; (a tuple: not one per element).
+        residual: per laminate (p, 2, 5, 2) what a degree and a gradient leave in free
+            plies.
         failures: per laminate; None: NaN for its elements.
     """
 
     laminate: Int64
     maps: tuple[Float64, ...]
+    residual: tuple[Float64, ...]
     failures: tuple[Failure | None, ...]
+
+    def heated(self, relief: Float64, heat: Float64) -> tuple[Recovery, Float64]:
+        """Degrees and gradients are two quantities more."""
+        maps = tuple(
+            np.concatenate(pair, axis=-1) for pair in zip(self.maps, self.residual)
+        )
+        return (
+            replace(self, maps=maps, matrix=with_heat(self.matrix)),
+            np.hstack([relief, heat]),
+        )
 
     def derive(self, linear: Float64) -> Float64:
         """(..., e, 2 p + 1) from (..., e, 8) resultants in material axes."""

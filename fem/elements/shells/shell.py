@@ -28,11 +28,13 @@ from fem.elements.shells.shell_recovery import (
     stress_names,
 )
 from fem.elements.shells.shell_shear import shear
+from fem.properties.shell_expansion import residual_map
 from fem.properties.shell_section import ShellSection, strain_rotation, vector_rotation
 from fem.properties.shells import ShellProperty
 
 # Elements that are computed at a time: their arrays stay in the cache.
 _CHUNK = 1024
+_FREE = ("strain", "curvature")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,12 +92,34 @@ class Shell(DenseBlock):
         return np.array([p.tref for p in self.properties])[self.which]
 
     def expansion(self) -> Float64:
-        """(e, 6 n), see `DenseBlock`; NaN where plies or directions differ too much.
+        """(e, 6 n), see `DenseBlock`; NaN: curvatures of shells with mid-sides.
 
         Along the normal, which matters to elements that are not flat, the mean.
         """
-        own = np.stack([p.alpha for p in self.properties])[self.which]
-        strain = np.einsum("eij,ej->ei", strain_rotation(-self.angle), own)
+        return self._expanded(0)
+
+    def bent(self) -> Float64:
+        """(e, 6 n) displacements of free elements per gradient over the thickness."""
+        return self._expanded(1)
+
+    def _expanded(self, load: int) -> Float64:
+        """(e, 6 n) by one degree (0), or by one degree per length along z (1)."""
+        strain, curvature = (self._free(name, load) for name in _FREE)
+        return (self._stretched(strain) + self._curled(curvature)).reshape(
+            len(self.id), -1
+        )
+
+    def _free(self, name: str, load: int) -> Float64:
+        """(e, 3) strain or curvature of free elements, element axes."""
+        own = np.stack([getattr(p.expansion, name)[load] for p in self.properties])
+        nominal = np.array([p.nominal for p in self.properties])
+        ratio = self.section.thickness / nominal[self.which]
+        power = {"strain": load, "curvature": load - 1}[name]
+        scaled = own[self.which] * ratio[:, None] ** power
+        return np.einsum("eij,ej->ei", strain_rotation(-self.angle), scaled)
+
+    def _stretched(self, strain: Float64) -> Float64:
+        """(e, n, 6) motion of the grids by a strain xx yy xy (e, 3)."""
         xx, yy, xy = strain.T
         tensor = np.zeros((len(self.id), 3, 3))
         tensor[:, 0, 0], tensor[:, 1, 1] = xx, yy
@@ -105,7 +129,32 @@ class Shell(DenseBlock):
         arm = self.expanding - self.expanding.mean(axis=1, keepdims=True)
         moved = np.zeros((*arm.shape[:2], 6))
         moved[..., :3] = arm @ (axes.transpose(0, 2, 1) @ tensor @ axes)
-        return moved.reshape(len(self.id), -1)
+        return moved
+
+    def _curled(self, curvature: Float64) -> Float64:
+        """(e, n, 6) motion of the grids by a curvature xx yy xy (e, 3) about z.
+
+        Without shear: w = -(k_xx x^2 + k_yy y^2 + k_xy x y) / 2.
+        """
+        shape = self.shape
+        moved = np.zeros((*self.expanding.shape[:2], 6))
+        if not curvature.any():
+            return moved
+        if self.expanding.shape[1] != shape.corners:
+            moved[curvature.any(axis=1)] = np.nan
+            return moved
+        x, y = np.moveaxis(shape.xy, -1, 0)
+        xx, yy, xy = curvature.T[..., None]
+        along = xx * x + 0.5 * xy * y, yy * y + 0.5 * xy * x
+        zero = np.zeros_like(x)
+        turn = np.stack([-along[1], along[0], zero], axis=-1)
+        shift = np.stack([zero, zero, -0.5 * (along[0] * x + along[1] * y)], axis=-1)
+        # The grid is the root of the arm to the reference surface.
+        arm = np.zeros_like(turn)
+        arm[..., 2] = shape.offset[:, None]
+        shift = shift - np.cross(turn, arm)
+        moved[..., :3], moved[..., 3:] = shift @ shape.axes, turn @ shape.axes
+        return moved
 
     @property
     def expanding(self) -> Float64:
@@ -289,8 +338,20 @@ class Shell(DenseBlock):
             id=self.id,
             laminate=self.which,
             maps=tuple(maps),
+            residual=self._residual(most, strain=strain),
             strain=strain,
         )
+
+    def _residual(self, most: int, *, strain: bool) -> tuple[Float64, ...]:
+        """Per laminate (5 most, 2): what degree and gradient leave in the plies."""
+        found = []
+        for p in self.properties:
+            own = np.full((5 * most, 2), np.nan)
+            if p.laminate is not None and p.expansion.plies is not None:
+                left = residual_map(p.laminate, p.expansion.plies, strain=strain)
+                own[: 5 * len(left)] = left.reshape(-1, 2)
+            found.append(own)
+        return tuple(found)
 
     def _failures(self) -> Recovery | None:
         """Failure indices; None where no property of the block asks for them."""
@@ -308,7 +369,22 @@ class Shell(DenseBlock):
             id=self.id,
             laminate=self.which,
             maps=tuple(maps),
+            residual=self._residuals_of_failure(),
             failures=failures,
+        )
+
+    def _residuals_of_failure(self) -> tuple[Float64, ...]:
+        """Per laminate (p, 2, 5, 2): stresses and strains, as in the maps."""
+        return tuple(
+            np.stack(
+                [
+                    residual_map(p.laminate, p.expansion.plies, strain=strain)
+                    for strain in (False, True)
+                ],
+                axis=1,
+            )
+            for p in self.properties
+            if p.laminate is not None and p.expansion.plies is not None
         )
 
 

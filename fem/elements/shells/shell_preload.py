@@ -11,15 +11,15 @@ prints for a small model of solids and shells (pyNastran, buckling2_solid_shell_
 met within 0.3 %; with u,a . u,b in full they are 6 to 21 % off, of which nothing is
 left on meshes whose elements are thin.
 
-w is linear between the grids, as MSC's factors show: with the curved w that belongs to
-the rotations (edges bend by l . (b_2 - b_1) / 8 in their middle) they are missed by 11 %
-(quadrilaterals) and 16 % (triangles). Of a wave that turns by p and q from one grid to
-the next the linear w keeps (sin p / p)(sin q / q) of N_xy, 1 - (p^2 + q^2) / 6, and
-1 - p^2 / 12 - q^2 / 6 of N_xx. The bending stiffness of CQUAD4 is as much too soft for
-waves across both directions, so that compression is right on coarse meshes (4 % at 4
-elements, 0.04 % at 8) and shear is not (63 %, 9 %, 1.3 % at 16): the curved w has -21, -8
-and -3 % there, and -10, -4 and -1 % under compression. Triangles gain by it (0.2 and
-0.3 % at 8 for 1.5 and 0.1 %), but leave MSC's factors.
+w is linear between the grids, as MSC's factors show: with the curved w that belongs
+to the rotations (edges bend by l . (b_2 - b_1) / 8 in their middle) they are missed by
+11 % (quadrilaterals) and 16 % (triangles). Of a wave that turns by p and q from one
+grid to the next the linear w keeps (sin p / p)(sin q / q) of N_xy, 1 - (p^2 + q^2) / 6,
+and 1 - p^2 / 12 - q^2 / 6 of N_xx. The bending stiffness of CQUAD4 is as much too soft
+for waves across both directions, so that compression is right on coarse meshes (4 % at
+4 elements, 0.04 % at 8) and shear is not (63 %, 9 %, 1.3 % at 16): the curved w has
+-21, -8 and -3 % there, and -10, -4 and -1 % under compression. Triangles gain by it
+(0.2 and 0.3 % at 8 for 1.5 and 0.1 %), but leave MSC's factors.
 
 Behind an offset (ZOFFS) the grid turns an arm
 with the force of the corner at its tip.

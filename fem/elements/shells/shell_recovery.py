@@ -5,7 +5,7 @@ at more than one point (centre, corners) or fibre stand side by side: the column
 corner k start with `c<k>_`, those of the lower and upper fibre end with `_1` and `_2`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,11 @@ from fem.elements.stress_measures import (
     plane_von_mises,
     plane_von_mises_strain,
 )
+
+
+def with_heat(matrix: Float64) -> Float64:
+    """(e, c + 2, n): two quantities that do not depend on displacements."""
+    return np.pad(matrix, ((0, 0), (0, 2), (0, 0)))
 
 
 def point_names(columns: tuple[str, ...], points: int) -> tuple[str, ...]:
@@ -73,12 +78,22 @@ class PlyRecovery(Recovery):
         laminate: (e,) which of the laminates.
         maps: per laminate (5 p, 8) from resultants in material axes to 11 22 12 1z 2z
             of p plies, NaN where a laminate has fewer. (A tuple: not one per element.)
+        residual: per laminate (5 p, 2) what degree and gradient leave in free plies.
         strain: strains instead of stresses; the largest shear is then engineering.
     """
 
     laminate: Int64
     maps: tuple[Float64, ...]
+    residual: tuple[Float64, ...]
     strain: bool = False
+
+    def heated(self, relief: Float64, heat: Float64) -> tuple[Recovery, Float64]:
+        """Degrees and gradients are two quantities more."""
+        maps = tuple(np.hstack(pair) for pair in zip(self.maps, self.residual))
+        return (
+            replace(self, maps=maps, matrix=with_heat(self.matrix)),
+            np.hstack([relief, heat]),
+        )
 
     def derive(self, linear: Float64) -> Float64:
         """(..., e, 9 p) from (..., e, 8) resultants in material axes."""

@@ -135,11 +135,105 @@ def test_a_turned_ply_grows_along_its_own_axes(solve):
     )
 
 
-def test_plies_that_expand_differently_are_refused(solve):
-    plies = "PCOMP,1\n+,2,.01,90.,,2,.01,0.\n"
-    ply = plies + "MAT8,2,1.+11,1.+10,.3,5.+9,,,1500.,+\n+,1.-6,3.-5,20.\n"
-    with pytest.raises(InputError, match=r"CQUAD4 1: its plies .* expand differently"):
-        solve(plate(QUADS + "SPC1,1,123456,0\n") + ply + "TEMPD,4,100.\n")
+FREE = "SPC1,1,123456,0\n"
+T1, T2, E1, E2, A1, A2 = 0.004, 0.006, 2e11, 7e10, 1.2e-5, 2.4e-5
+BIMETAL = f"""PCOMP,1,,,,,20.
++,2,{T1},0.,YES,3,{T2},0.,YES
+MAT1,2,{E1:.0f}.,,.3,,{A1}
+MAT1,3,{E2:.0f}.,,.3,,{A2}
+"""
+
+
+def bimetal(heat):
+    """Timoshenko's strip as a plate: curvature; stresses in the middle of the plies."""
+    m, n, h = T1 / T2, E1 / E2, T1 + T2
+    square = (1.0 + m) ** 2
+    curved = 6.0 * (A2 - A1) * heat * square
+    curved /= h * (3.0 * square + (1.0 + m * n) * (m**2 + 1.0 / (m * n)))
+    # One force in each layer, with the moments of both in balance.
+    stiff = (E1 * T1**3 + E2 * T2**3) / 12.0
+    force = 2.0 * stiff * curved / h
+    return curved, np.array([force / T1, -force / T2]) / (1.0 - NU)
+
+
+@pytest.mark.parametrize("z0", ["", "0.02"])
+def test_a_bimetal_plate_curls(solve, z0):
+    """Anywhere above the reference surface: w = -k r^2 / 2, stresses by Timoshenko."""
+    plies = BIMETAL.replace("PCOMP,1,,", f"PCOMP,1,{z0},")
+    file = solve(plate(QUADS + FREE) + plies + "TEMPD,4,120.\n")
+    curvature, stress = bimetal(100.0)
+    moved = file["static/1/displacement"]
+    at = file["position"][:]
+    w = -0.5 * curvature * (at[:, 0] ** 2 + at[:, 1] ** 2)
+    np.testing.assert_allclose(moved[:, 2], w, rtol=1e-7, atol=1e-10)
+    np.testing.assert_allclose(moved[:, 4], curvature * at[:, 0], rtol=1e-7, atol=1e-10)
+    found = file["static/1/element_stress/CQUAD4_COMPOSITE"]
+    columns = list(found.attrs["columns"])
+    for ply, expected in enumerate(stress, start=1):
+        for name in (f"o11_p{ply}", f"o22_p{ply}"):
+            values = found["value"][:, columns.index(name)]
+            np.testing.assert_allclose(values, expected, rtol=1e-7)
+    force = file["static/1/element_force/CQUAD4/value"][:]
+    assert np.abs(force).max() < 1e-6 * E1 * A1 * 100.0 * T1
+
+
+def test_plies_between_walls_are_pressed_each_by_itself(solve):
+    file = solve(plate(QUADS + HELD) + BIMETAL + "TEMPD,4,120.\n")
+    found = file["static/1/element_stress/CQUAD4_COMPOSITE"]
+    columns = list(found.attrs["columns"])
+    for ply, (e, a) in enumerate(((E1, A1), (E2, A2)), start=1):
+        values = found["value"][:, columns.index(f"o11_p{ply}")]
+        np.testing.assert_allclose(values, -e * a * 100.0 / (1.0 - NU), rtol=1e-9)
+
+
+def test_a_cross_ply_keeps_stresses_that_balance(solve):
+    """0/90/90/0 of MAT8: no curvature, forces of the plies sum to nothing."""
+    ply = "MAT8,2,1.4+11,9.+9,.3,5.+9,5.+9,3.+9,1600.,+\n+,-.5-6,3.-5,20.\n"
+    plies = "PCOMP,1,,,,,20.,,SYM\n+,2,.001,0.,YES,2,.001,90.,YES\n"
+    file = solve(plate(QUADS + FREE) + plies + ply + "TEMPD,4,-80.\n")
+    found = file["static/1/element_stress/CQUAD4_COMPOSITE"]
+    columns, values = list(found.attrs["columns"]), found["value"][0]
+    o11, o22 = (
+        np.array([values[columns.index(f"{name}_p{k}")] for k in range(1, 5)])
+        for name in ("o11", "o22")
+    )
+    # Along x: the fibres of the outer plies, across the inner ones.
+    assert o11[0] + o22[1] == pytest.approx(0.0, abs=1e-7 * abs(o11[0]))
+    e1, e2, nu12 = 1.4e11, 9e9, 0.3
+    q = 1.0 - nu12**2 * e2 / e1
+    q11, q22, q12 = e1 / q, e2 / q, nu12 * e2 / q
+    a = np.array([-0.5e-6, 3e-5]) * -100.0
+    strain = (q11 * a[0] + q12 * a[1] + q22 * a[1] + q12 * a[0]) / (q11 + q22 + 2 * q12)
+    expected = q11 * (strain - a[0]) + q12 * (strain - a[1])
+    np.testing.assert_allclose(o11, expected, rtol=1e-8)
+    assert np.abs(file["static/1/displacement"][:, 2]).max() < 1e-12
+
+
+@pytest.mark.parametrize(
+    "pshell", ["PSHELL,1,1,.01,1,,1\n", "PCOMP,1,,,,,20.\n+,1,.01\n"]
+)
+def test_a_gradient_over_the_thickness_curls_or_bends(solve, pshell):
+    """Free: k = alpha T'; held: M = D (1 + nu) alpha T'."""
+    gradient = "TEMPD,4,20.\nTEMPP1,4,1,20.,3000.,,,,,+\n+,2,11,12\n"
+    free = solve(plate(QUADS + FREE) + pshell + MAT1 + gradient)
+    at = free["position"][:]
+    w = -0.5 * ALPHA * 3000.0 * (at[:, 0] ** 2 + at[:, 1] ** 2)
+    np.testing.assert_allclose(
+        free["static/1/displacement"][:, 2], w, rtol=1e-7, atol=1e-12
+    )
+    held = solve(plate(QUADS + HELD) + pshell + MAT1 + gradient)
+    moment = E * 0.01**3 / 12.0 / (1.0 - NU) * ALPHA * 3000.0
+    force = held["static/1/element_force/CQUAD4/value"][:]
+    np.testing.assert_allclose(np.abs(force[:, 3:5]), moment, rtol=1e-9)
+
+
+def test_bent_shells_with_mid_sides_are_refused(solve):
+    bulk = (
+        "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,.5,0.,0.\n"
+        "CTRIA6,1,1,1,2,3,4\nSPC1,1,123456,1,2\n"
+    )
+    with pytest.raises(InputError, match=r"CTRIA6 1: temperatures bend it"):
+        solve(bulk + BIMETAL + "TEMPD,4,100.\n")
 
 
 CUBE = "".join(
@@ -206,7 +300,7 @@ def test_what_is_missing_is_named(solve):
         solve(bulk)
     with pytest.raises(InputError, match=r"TEMPERATURE\(LOAD\) = 9: no TEMP"):
         solve(bulk, "SPC = 1\nTEMP(LOAD) = 9")
-    with pytest.raises(InputError, match="TEMPP1 with TEMPERATURE"):
-        solve(bulk + "TEMPP1,4,1,20.,5.\n")
+    with pytest.raises(InputError, match="TEMPP3 with TEMPERATURE"):
+        solve(bulk + "TEMPP3,4,1,20.,5.\n")
     with pytest.raises(InputError, match="DEFORM 6: element 77 is no rod"):
         solve(bulk + "DEFORM,6,77,.1\n", "SPC = 1\nDEFORM = 6")
