@@ -101,6 +101,12 @@ class ResultFile:
             words = f"results of {size / 1e6:,.0f} MB, {free / 1e6:,.0f} MB are free"
             raise OSError(errno.ENOSPC, words, str(self.path))
 
+    def discard(self, *names: str) -> None:
+        """Forget groups of an attempt that failed, where they are there."""
+        for name in names:
+            if name in self.file:
+                del self.file[name]
+
     def write(self, name: str, values: npt.ArrayLike) -> None:
         """A dataset of numbers; groups on the way are made.
 

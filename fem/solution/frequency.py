@@ -104,7 +104,7 @@ def _direct(
 ) -> Complex128:
     """(f, g) displacements."""
 
-    def run() -> Complex128:
+    def run(model: Structure) -> Complex128:
         reduced = analysis_model(model, solver=options.solver)
         pattern = reduced.load(excitation.pattern)
         u = direct_response(
@@ -117,9 +117,14 @@ def _direct(
         return (reduced.expand @ u.T).T
 
     try:
-        return run()
+        return run(model)
     except SingularMatrixError as error:
-        raise InputError(f"{model.deck.path}: {_RESONANCE} ({error})") from None
+        held, notices = model.without_massless_motions()
+        if held is model:
+            raise InputError(f"{model.deck.path}: {_RESONANCE} ({error})") from None
+        for notice in notices:
+            options.console.say(f"notice: {notice}")
+        return run(held)
 
 
 _RESONANCE = (

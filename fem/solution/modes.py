@@ -17,6 +17,7 @@ from fem.model.structure import Structure
 from fem.model.weight import rigid_modes
 from fem.recovery.grid_forces import strain_energy
 from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.holding import solve_or_hold
 from fem.solution.options import Options
 from fem.solution.requests import check_free, ids_of
 from fem.solution.requests import wanted as asked
@@ -63,20 +64,9 @@ def modes_of(model: Structure, options: Options) -> tuple[AnalysisModel, Modes]:
             progress=report,
         )
 
-    def solve_or_hold() -> tuple[AnalysisModel, Modes]:
-        try:
-            return solve(model)
-        except (ModesError, SingularMatrixError):
-            held, notices = model.without_massless_motions()
-            if held is model:
-                raise
-            for notice in notices:
-                options.console.say(f"notice: {notice}")
-            return solve(held)
-
     try:
-        return model.guarded(
-            solve_or_hold, dynamic=True, error=(ModesError, SingularMatrixError)
+        return solve_or_hold(
+            model, solve, options.console, (ModesError, SingularMatrixError)
         )
     except ModesError as error:
         raise InputError(f"{model.deck.path}: {error}") from None

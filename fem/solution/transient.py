@@ -44,6 +44,7 @@ from fem.response.direct import TransientLoad, direct_transient
 from fem.response.modal import modal_transient, residual_vectors
 from fem.response.observation import Observer, Quantity
 from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.holding import solve_or_hold
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
 from fem.solution.options import Options
@@ -105,19 +106,16 @@ def _direct(
     inputs = _inputs(model, cases)
     load_g = inputs.load
 
-    def reduce() -> AnalysisModel:
-        return analysis_model(model, solver=options.solver)
-
-    reduced = model.guarded(reduce, dynamic=True, error=SingularMatrixError)
-    observers = _observers(model, cases, reduced, inputs, results, options)
-
     def inform(text: str) -> None:
         size = results.size_bytes() / 1e6
         options.console.say(f"{text}, result file {size:.0f} MB")
         results.require_room()
 
-    def run() -> Float64:
-        return direct_transient(
+    def run(model: Structure) -> tuple[Float64, list[Observer]]:
+        results.discard(*(f"transient/{case.id}" for case in cases))
+        reduced = analysis_model(model, solver=options.solver)
+        observers = _observers(model, cases, reduced, inputs, results, options)
+        time = direct_transient(
             reduced.stiffness,
             reduced.mass,
             reduced.damping,
@@ -131,8 +129,9 @@ def _direct(
             progress=options.console.progress("direct transient"),
             inform=inform,
         ).time
+        return time, observers
 
-    time = model.guarded(run, dynamic=True, error=SingularMatrixError)
+    time, observers = solve_or_hold(model, run, options.console, SingularMatrixError)
     _finish(cases, time, observers, results)
 
 

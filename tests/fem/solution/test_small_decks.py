@@ -371,3 +371,58 @@ def test_motions_without_stiffness_and_mass_are_held_in_modes(solve):
     axial = np.sqrt(4.0 * 7e10 / 2700.0 / 4.0) / (2.0 * np.pi)
     assert hertz[:5] == pytest.approx(np.zeros(5), abs=1e-9)
     assert hertz[5:] == pytest.approx([axial])
+
+
+FLOATING = """\
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,2.,0.,0.
+CBAR,1,1,1,2,0.,0.,1.
+CBAR,2,1,2,3,0.,0.,1.
+PBAR,1,1,1.-4,1.-8,1.-8,1.-8
+MAT1,1,7.+10,,.3
+CONM2,11,1,,2.
+CONM2,12,2,,2.
+CONM2,13,3,,2.
+DAREA,9,3,3,6.
+DAREA,9,1,3,6.
+TLOAD1,5,9,,,7
+RLOAD1,6,9,,,1.
+TABLED1,7
+,0.,1.,1.,1.,ENDT
+TSTEP,2,100,.001
+FREQ,3,2.
+"""
+
+
+def test_motions_without_stiffness_and_mass_are_held_in_time_and_frequency(tmp_path):
+    """Bars in a row between lumped masses turn freely about their line.
+
+    The center of gravity under 12 N on 6 kg: 2 t^2 / 2 and 2 / -w^2.
+    """
+    for sol, case in ((109, "TSTEP = 2\nDLOAD = 5"), (108, "FREQ = 3\nDLOAD = 6")):
+        path = tmp_path / f"floating{sol}.bdf"
+        text = f"SOL {sol}\nCEND\n{case}\nDISP = ALL\nBEGIN BULK\n{FLOATING}ENDDATA\n"
+        path.write_text(text)
+        said: list[str] = []
+
+        class Said(fem.solution.options.Quiet):
+            def say(self, text, said=said):
+                said.append(text)
+
+        out = fem.solution.run_deck(
+            fem.read_deck(path),
+            path.with_suffix(".h5"),
+            fem.solution.Options(console=Said()),
+        )
+        with h5py.File(out) as file:
+            kind = "transient" if sol == 109 else "frequency"
+            u = file[f"{kind}/1/displacement"][-1]
+        if sol == 109:
+            assert any("held at grid" in text for text in said)
+            # Nastran's scheme: the load at t = 0 counts as a third of a step.
+            assert u[:, 2].mean() == pytest.approx(0.01, rel=1e-2)
+        else:
+            omega = 2.0 * np.pi * 2.0
+            assert u[:, 2].mean() == pytest.approx(-2.0 / omega**2, rel=1e-9)
+        assert u[:, 3] == pytest.approx(0.0, abs=1e-12)
