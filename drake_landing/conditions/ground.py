@@ -152,12 +152,14 @@ class GearLoad:
             centre of gravity of the unsprung parts.
         force: (3,) N, G.
         moment: (3,) N m, G.
+        what: kind of the load, where it is not that of the ground.
     """
 
     gear: str
     at: At
     force: Float64
     moment: Float64 = field(default_factory=lambda: np.zeros(3))
+    what: str = ""
 
 
 def load(
@@ -168,6 +170,7 @@ def load(
     side: float = 0.0,
     vertical: float = 0.0,
     turning: float = 0.0,
+    what: str = "",
 ) -> GearLoad:
     """A load by its components, N; `turning` about the up axis, N m."""
     return GearLoad(
@@ -175,6 +178,7 @@ def load(
         at=at,
         force=np.array([drag, side, vertical]),
         moment=np.array([0.0, 0.0, turning]),
+        what=what,
     )
 
 

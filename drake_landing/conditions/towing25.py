@@ -74,15 +74,17 @@ def _towed(
             if g.name not in pull:
                 continue
             force = sense * pull[g.name] * np.array([c, s, 0.0])
-            loads.append(GearLoad(gear=g.name, at="axle", force=force))
+            loads.append(GearLoad(gear=g.name, at="axle", force=force, what="tow"))
             held = force.copy()
             if roles[g.name] == "main":
-                loads.append(load(g, "ground", side=-force[1]))
+                what = "ground against the tow's side"
+                loads.append(load(g, "ground", side=-force[1], what=what))
                 held[1] = 0.0
             size = float(np.linalg.norm(held))
             if at_axle and size > 0.0:
                 held *= min(1.0, z / size)
-                loads.append(GearLoad(gear=g.name, at="axle", force=-held))
+                what = "axle against the tow"
+                loads.append(GearLoad(gear=g.name, at="axle", force=-held, what=what))
         yield BookCase(
             paragraph="25.509",
             name=f"towed at {name}, {how}",
@@ -113,6 +115,7 @@ def jacking(aircraft: GroundAircraft) -> Iterator[BookCase]:
                         vertical=JACK * z,
                         drag=x * JACK_SIDE * z,
                         side=y * JACK_SIDE * z,
+                        what="jack",
                     )
                     if g is gear
                     else load(g, "ground", vertical=z)

@@ -33,10 +33,13 @@ from drake_landing.process.condition_tables import (
     attachment_table,
     case_table,
     gear_table,
+    named_cases,
+    with_headings,
 )
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter, Silent
 from drake_landing.results.stages import Stages
+from drake_landing.results.units import of_quantities
 from drake_landing.transient.static_deck import StaticCase, write_static_deck
 from fem.arrays import Float64
 from fem.errors import InputError
@@ -180,10 +183,10 @@ def solve(
         balances=tuple(balances),
         cases=case_table(balances).assign(text=texts),
         gear_loads=gear_table(balances),
-        attachment_loads=attachment_table(held, split),
-        worst=worst_over_cases(case, watch, answers),
-        sections=section_extremes(watch, answers),
-        monitors=monitor_extremes(watch, answers),
+        attachment_loads=attachment_table(held, split, balances),
+        worst=named_cases(worst_over_cases(case, watch, answers), balances),
+        sections=named_cases(section_extremes(watch, answers), balances),
+        monitors=named_cases(monitor_extremes(watch, answers), balances),
         error=error,
         notices=watch.notices,
     )
@@ -233,13 +236,19 @@ def _write_deck(
 
 def write_tables(result: ConditionsResult, out: Path) -> None:
     """CSV tables."""
-    write_csv(out / "conditions.csv", result.cases)
-    write_csv(out / "gear_loads.csv", result.gear_loads)
-    write_csv(out / "attachment_loads.csv", result.attachment_loads)
-    write_csv(out / "worst_stresses.csv", result.worst)
-    write_csv(out / "section_loads.csv", result.sections)
-    if len(result.monitors):
-        write_csv(out / "monitor_points.csv", result.monitors)
+    tables = {
+        "conditions": result.cases,
+        "gear_loads": result.gear_loads,
+        "attachment_loads": result.attachment_loads,
+        "worst_stresses": result.worst,
+        "section_loads": result.sections,
+        "monitor_points": result.monitors,
+    }
+    for name, table in tables.items():
+        if name != "monitor_points" or len(table):
+            units = of_quantities(table)
+            own = table.assign(unit=units) if len(units) else table
+            write_csv(out / f"{name}.csv", with_headings(own))
 
 
 def summary(result: ConditionsResult, case: Case, out: Path) -> str:

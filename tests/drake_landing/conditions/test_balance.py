@@ -4,6 +4,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+import pandas as pd
 import pytest
 
 from drake_landing.airframe.body import rigid_airframe
@@ -12,7 +13,7 @@ from drake_landing.conditions.balance import holds
 from drake_landing.conditions.build import on_ground
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.explain import explain
-from drake_landing.process.static_conditions import DECK, solve
+from drake_landing.process.static_conditions import DECK, solve, write_tables
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.solution.run import run_deck
@@ -134,6 +135,36 @@ def test_monitor_points_of_the_deck_are_in_static_equilibrium(found):
         for end in ("min", "max"):
             assert bar[end] == pytest.approx(outside[end], abs=1e-6 * size)
     assert (table["max"] > 0.0).any()
+
+
+_WITHOUT_UNIT = {  # counts, ids, shares and flags; `unit` says it where rows differ
+    *("case", "case_of_min", "case_of_max", "rank", "id", "material", "node", "margin"),
+    *("imbalance", "min", "max", "last_swing", "frame"),
+}
+
+
+def test_tables_say_units_and_name_their_cases(found, tmp_path):
+    _, _, result = found
+    write_tables(result, tmp_path)
+    for path in tmp_path.glob("*.csv"):
+        table = pd.read_csv(path)
+        for column in table.select_dtypes("number"):
+            told = "[" in column or column in _WITHOUT_UNIT
+            assert told, f"{path.name}: {column}"
+        if {"min", "max"} & set(table):
+            assert table["unit"].notna().all(), path.name
+        cases = [c for c in table if c.startswith("case")]
+        assert cases, path.name
+        assert {c.replace("case", "name", 1) for c in cases} <= set(table), path.name
+        assert not table[[c.replace("case", "name", 1) for c in cases]].isna().any(None)
+
+
+def test_loads_of_a_tow_are_told_apart(found):
+    loads = found[2].gear_loads
+    tow = loads[loads.paragraph == "25.509"]
+    assert {"ground", "tow", "axle against the tow"} <= set(tow.what)
+    # No two loads of a case on one gear at one place without a name of their own.
+    assert not tow.duplicated(["case", "gear", "at", "what"]).any()
 
 
 def test_unknown_gears_in_conditions_are_refused():
