@@ -115,6 +115,20 @@ class Beam:
         """(3,) axis of bending, B: positive bending turns the outer end to `lift`."""
         return np.cross(self.direction, self.lift)
 
+    @property
+    def side(self) -> Float64:
+        """(3,) direction of positive shear beside `lift`, B: aft; of fuselages
+        starboard."""
+        body = self.outward in ("fore", "aft")
+        return outward_axis("starboard" if body else "aft", self.R_AB)
+
+    @property
+    def sideways(self) -> tuple[str, str]:
+        """What shear along `side`, and bending that turns the outer end there, are
+        called."""
+        word = "side" if self.outward in ("fore", "aft") else "fore-and-aft"
+        return f"{word} shear", f"{word} bending"
+
 
 @dataclass(frozen=True, kw_only=True)
 class BeamCuts:
@@ -169,6 +183,12 @@ class BeamCuts:
             ],
             axis=-1,
         )
+
+    def along_side(self, loads: Float64) -> Float64:
+        """(t, n, 2) of `Beam.sideways` from section loads (t, n, 6)."""
+        side = self.beam.side
+        turn = np.cross(self.beam.direction, side)
+        return np.stack([loads[..., :3] @ side, loads[..., 3:] @ turn], axis=-1)
 
 
 class Cutter:

@@ -10,6 +10,7 @@ from drake_landing.parts.buckling import BuckledPanels
 from drake_landing.parts.observers import PartsFound
 from drake_landing.parts.pictures import can_draw, draw_field, mode_field, stress_field
 from drake_landing.parts.stress import Stresses
+from drake_landing.parts.stress_observer import Snapshot
 from drake_landing.parts.tables import component_table
 from fem.files.escaping import file_name
 from fem.model.structure import Structure
@@ -30,8 +31,10 @@ def stress_pictures(
     found: PartsFound,
     parts: Parts,
     R_AB: Float64,
+    steady: Float64 | None = None,
 ) -> tuple[list[tuple[Path, str]], str]:
-    """The whole airframe when its worst element sees its worst, and close-ups.
+    """The whole airframe when its worst element sees its worst, and close-ups; before
+    them steady flight, (f,) displacements where they are known.
 
     Returns:
         PNG files in `out/pictures` with captions, and a sentence where there are none.
@@ -44,6 +47,8 @@ def stress_pictures(
         return [], _UNABLE
     up, aft = R_AB[2], R_AB[0]
     pictures: list[tuple[Path, str]] = []
+    if steady is not None:
+        pictures.append(_steady_picture(out, structure, stresses, steady, R_AB))
     worst = components.iloc[0]
     snapshot = found.worst[worst.component]
     field = stress_field(structure, stresses, snapshot)
@@ -82,6 +87,24 @@ def stress_pictures(
             )
         )
     return pictures, ""
+
+
+def _steady_picture(
+    out: Path, structure: Structure, stresses: Stresses, steady: Float64, R_AB: Float64
+) -> tuple[Path, str]:
+    """The stress field that the landing comes upon."""
+    equivalent = stresses.of(steady[:, None])[0, :, 0]
+    element = int(stresses.id[int(equivalent.argmax())])
+    snapshot = Snapshot(time=0.0, element=element, displacement=steady)
+    field = stress_field(structure, stresses, snapshot)
+    path = out / "pictures" / "stress_steady.png"
+    top = draw_field(path, field, close=False, up=R_AB[2], aft=R_AB[0])[1]
+    return path, (
+        "Equivalent stress in steady flight at 1 g, before touchdown: the largest is "
+        f"{equivalent.max() / 1e6:.0f} MPa in element {element}. Displacements times "
+        f"{field.factor:g}; colours end at {top / 1e6:.0f} MPa, another scale than "
+        "below."
+    )
 
 
 def buckling_pictures(

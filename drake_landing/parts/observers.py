@@ -127,7 +127,7 @@ class PartsWatch:
         self._averaged = averaged
         self._rows = elements.of(self.stresses.id)
         self.components, group = np.unique(self._rows.component, return_inverse=True)
-        self._steady = steady is not None
+        self.steady = steady
         self._stress = StressWatch(
             self.stresses, group, self._rows.allowed.to_numpy(float), steady
         )
@@ -209,7 +209,7 @@ class PartsWatch:
             stations=self.stations,
             places=self.places,
             cases=tuple(cases),
-            total=self._stresses(-1) if self._steady else None,
+            total=self._stresses(-1) if self.steady is not None else None,
             worst=worst,
             imbalance=self._imbalance(loads[0]),
         )

@@ -188,9 +188,10 @@ def draw_field(
         "position_x": 0.30,
         "position_y": 0.02,
         "width": 0.40,
-        "height": 0.07,
+        "height": 0.10,
         "title_font_size": 22,
         "label_font_size": 20,
+        "unconstrained_font_size": True,
         "color": "black",
         "fmt": "%.0f" if scale[1] > 20.0 * field.unit else "%.1f",
     }
@@ -220,6 +221,7 @@ def draw_field(
         plotter.add_points(
             place, color="magenta", point_size=22, render_points_as_spheres=True
         )
+    plotter.add_axes(color="black", line_width=3)  # of the deck's basic frame
     _look(plotter, field, close=close, up=up, aft=aft)
     try:
         with written_aside(path) as part:

@@ -321,7 +321,13 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
     pictures, unable = [], "Pictures of the stress field failed, see the notices."
     with _at_most_lost("pictures of the stress field", lost):
         pictures, unable = stress_pictures(
-            out, structure, watch.stresses, parts, result.case.parts, R_AB
+            out,
+            structure,
+            watch.stresses,
+            parts,
+            result.case.parts,
+            R_AB,
+            watch.steady,
         )
     with _at_most_lost("picture of the panel that buckles", lost):
         pictured = buckling_pictures(out, structure, result.buckled, R_AB)

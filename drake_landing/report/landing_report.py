@@ -1,7 +1,7 @@
 """The report of one landing: which pictures and tables, in which order."""
 
 import platform
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -41,8 +41,10 @@ _AGREEMENT = {
     "point": "point",
     "axis": "axis",
     "peak_fe": "peak, transient m/s²",
-    "peak_low": "low-passed m/s²",
+    "time_fe": "at s",
+    "peak_low": "low-passed, magnitude m/s²",
     "peak_mbs": "peak, multibody m/s²",
+    "time_mbs": "at s ",
     "peak_error": "peak error",
     "rms_error": "rms difference",
     "correlation": "correlation",
@@ -50,11 +52,16 @@ _AGREEMENT = {
 }
 _AGREEMENT_FORMATS = {
     **dict.fromkeys(("peak_fe", "peak_low", "peak_mbs"), ".3f"),
+    **dict.fromkeys(("time_fe", "time_mbs"), ".3f"),
     **dict.fromkeys(("peak_error", "rms_error", "sprague_geers"), ".2%"),
     "correlation": ".4f",
 }
 
 
+_BESIDE = {
+    "landing.html": "Replay in three dimensions",
+    "histories.html": "Interactive histories",
+}
 _WORST = {
     "result": "result",
     "type": "type",
@@ -90,6 +97,11 @@ def write_report(
             story=story(result),
             key_figures=key_figures(result),
             sections=list(_sections(result, pictures, unable, buckling, path.parent)),
+            beside=[
+                (name, what)
+                for name, what in _BESIDE.items()
+                if (path.parent / name).is_file()
+            ],
             footer=", ".join(f"{k} {v}" for k, v in versions().items() if k != "python")
             + f", Python {platform.python_version()}. SI units.",
         ),
@@ -274,6 +286,7 @@ def _accelerations(result: "ProcessResult") -> Section:
         for point, transient in result.response.items()
     ]
     shown = result.comparison.dropna(subset="rms_error").merge(peaks_below(result))
+    shown = _with_signs(shown, result.response, multibody, result.loads.time)
     return Section(
         id="accelerations",
         title="Accelerations",
@@ -290,11 +303,28 @@ def _accelerations(result: "ProcessResult") -> Section:
                 shown,
                 _AGREEMENT,
                 _AGREEMENT_FORMATS,
-                "Multibody against direct transient: peaks are the largest magnitudes "
-                "of either sign, errors are relative to the transient",
+                "Multibody against direct transient: peaks are the largest magnitudes, "
+                "with their sign and instant; errors are relative to the transient",
             ),
         ],
     )
+
+
+def _with_signs(
+    rows: pd.DataFrame,
+    transient: Mapping[str, pd.DataFrame],
+    multibody: Mapping[str, pd.DataFrame],
+    time: np.ndarray,
+) -> pd.DataFrame:
+    """Peaks of points and axes with their signs, and their instants."""
+    found: dict[str, list[float]] = {}
+    for model, tables in (("fe", transient), ("mbs", multibody)):
+        for point, axis in zip(rows["point"], rows["axis"]):
+            values = tables[point][axis].to_numpy()
+            at = int(np.abs(values).argmax())
+            found.setdefault(f"peak_{model}", []).append(float(values[at]))
+            found.setdefault(f"time_{model}", []).append(float(time[at]))
+    return rows.assign(**found)
 
 
 def _spectra(result: "ProcessResult") -> Section:
@@ -333,7 +363,7 @@ def _gears(result: "ProcessResult") -> Section:
         "absorber are along its own axis, positive in compression. The wheels stand "
         "still at touchdown and are spun up by the drag.",
         blocks=[
-            _gear_peaks(result),
+            *_gear_peaks(result),
             Block(svg=figures.struts_and_tyres(result.history)),
             Block(svg=figures.force_over_stroke(result.history)),
         ],
@@ -355,7 +385,8 @@ def _attachment_nodes(result: "ProcessResult") -> Block:
     return table_block(pd.DataFrame(rows), heads, formats, "Attachment nodes")
 
 
-def _gear_peaks(result: "ProcessResult") -> Block:
+def _gear_peaks(result: "ProcessResult") -> Iterator[Block]:
+    """Peaks and their instants."""
     peaks = result.gears.pivot(index="gear", columns="quantity", values="peak")
     peaks = peaks.loc[list(dict.fromkeys(result.gears["gear"]))].reset_index()
     kilo = [c for c in peaks.columns if c not in ("gear", "stroke")]
@@ -371,7 +402,9 @@ def _gear_peaks(result: "ProcessResult") -> Block:
     formats = dict.fromkeys(heads, ".2f") | {"stroke": ".4f"}
     # Zero by symmetry reads better without a sign.
     peaks[kilo] = peaks[kilo].where(peaks[kilo].abs() > 5e-3, 0.0)
-    return table_block(
+    instants = result.gears.pivot(index="gear", columns="quantity", values="time")
+    instants = instants.loc[peaks["gear"]].reset_index()
+    yield table_block(
         peaks,
         heads,
         formats,
@@ -379,6 +412,12 @@ def _gear_peaks(result: "ProcessResult") -> Block:
         "sign): tyres in the axes of the runway; F and M on the airframe at the "
         f"attachment node, axes of the deck ({deck_axes(result.airframe.R_AB)}), "
         "increments to steady flight; the peaks of a row are not of one instant",
+    )
+    yield table_block(
+        instants,
+        {name: head.split(" k")[0].removesuffix(" m") for name, head in heads.items()},
+        dict.fromkeys(heads, ".3f"),
+        "Instants of these peaks, s",
     )
 
 

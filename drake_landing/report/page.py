@@ -68,13 +68,14 @@ class Section:
 
 @dataclass(frozen=True, kw_only=True)
 class Page:
-    """All that a page shows."""
+    """All that a page shows; `beside` names files of its folder and what they are."""
 
     name: str
     title: str
     story: str
     key_figures: Sequence[tuple[str, str]]
     sections: Sequence[Section]
+    beside: Sequence[tuple[str, str]] = ()
     footer: str = ""
     extra: dict[str, Any] = field(default_factory=dict)
 

@@ -1,6 +1,7 @@
 """Pictures of what the parts see: stresses, section loads, floor, panels, practices."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -57,24 +58,50 @@ def stress_bars(components: pd.DataFrame) -> str:
         return svg(figure, "stress by component")
 
 
+@dataclass(frozen=True)
+class Diagrams:
+    """Section loads that are drawn beside each other.
+
+    Attributes:
+        names: shear, bending, ...
+        units: N or N m of each.
+        of: the loads (t, ..., k) from section loads (t, ..., 6) of cuts.
+    """
+
+    names: Sequence[str]
+    units: Sequence[str]
+    of: Callable[[Float64], Float64]
+
+    @classmethod
+    def main(cls, cuts: BeamCuts) -> "Diagrams":
+        """Shear upward, bending of the outer end upward, torsion."""
+        return cls(NAMED, [_UNITS[name] for name in NAMED], cuts.named)
+
+    @classmethod
+    def sideways(cls, cuts: BeamCuts) -> "Diagrams":
+        """Shear and bending aft, of fuselages to starboard."""
+        return cls(cuts.beam.sideways, ["N", "N m"], cuts.along_side)
+
+
 def section_envelopes(
-    cuts: BeamCuts, time: Float64, loads: Float64, instant: int
+    cuts: BeamCuts, time: Float64, loads: Float64, instant: int, drawn: Diagrams
 ) -> str:
-    """Extremes of shear, bending and torsion along a beam, and the loads at an instant.
+    """Extremes of section loads along a beam, and the loads at an instant.
 
     Args:
         cuts: of the beam.
         time: (t,) s.
         loads: (t, n, 6) section loads.
         instant: row of the time that is drawn as a line.
+        drawn: which of them.
     """
-    named = _without_rounding(cuts.named(loads))
+    named = _without_rounding(drawn.of(loads))
     beam = cuts.beam
     shown = _shown(named)
     with panels(1, len(shown), height=2.6) as (figure, grid):
         for axes, q in zip(grid[0], shown):
-            quantity, values = NAMED[q], named[..., q]
-            factor, unit = common_scale([values], _UNITS[quantity])
+            quantity, values = drawn.names[q], named[..., q]
+            factor, unit = common_scale([values], drawn.units[q])
             low, high = factor * values.min(axis=0), factor * values.max(axis=0)
             axes.fill_between(
                 beam.stations, low, high, color=TRANSIENT, alpha=0.16, linewidth=0
@@ -86,11 +113,12 @@ def section_envelopes(
             finish(axes, quantity, unit, x=f"cut at {beam.axis} of the deck, m")
         head(figure, f"{beam.name}: along the part")
         legend(figure, grid[0][0])
-        return svg(figure, f"section loads along the {beam.name}")
+        said = ", ".join(drawn.names[q] for q in shown)
+        return svg(figure, f"section loads along the {beam.name}: {said}")
 
 
 def root_histories(
-    cuts: BeamCuts, found: PartsFound, practices: Practices | None
+    cuts: BeamCuts, found: PartsFound, practices: Practices | None, drawn: Diagrams
 ) -> str:
     """Section loads over time at one cut, with those of the other practices."""
     name = cuts.beam.name
@@ -98,18 +126,18 @@ def root_histories(
     where = f"{cuts.beam.axis} = {cuts.beam.stations[at]:z.2f} m"
     cases = list(zip((HYBRID, RIGID), found.cases))
     roots = [
-        _without_rounding(cuts.named(case.sections[name][:, at])) for _, case in cases
+        _without_rounding(drawn.of(case.sections[name][:, at])) for _, case in cases
     ]
     shown = _shown(np.stack(roots))
     with panels(1, len(shown), height=2.5) as (figure, grid):
         for axes, q in zip(grid[0], shown):
-            quantity, histories = NAMED[q], [root[:, q] for root in roots]
-            factor, unit = common_scale(histories, _UNITS[quantity])
+            quantity, histories = drawn.names[q], [root[:, q] for root in roots]
+            factor, unit = common_scale(histories, drawn.units[q])
             for (practice, _), values in reversed(list(zip(cases, histories))):
                 label = practice if practices else "direct transient"
                 curve(axes, found.time, factor * values, _PRACTICE[practice], label)
             if practices:
-                of = cuts.named(practices.slices.sections[name][:, at])[:, q]
+                of = drawn.of(practices.slices.sections[name][:, at])[:, q]
                 axes.plot(
                     practices.slices.time,
                     factor * of,
@@ -123,7 +151,8 @@ def root_histories(
             axes.set_xlim(found.time[0], found.time[-1])
         head(figure, f"{_part(name, where)}: over time")
         legend(figure, grid[0][0])
-        return svg(figure, f"section loads over time, {name}")
+        said = ", ".join(drawn.names[q] for q in shown)
+        return svg(figure, f"section loads over time, {name}: {said}")
 
 
 def _part(name: str, where: str) -> str:
@@ -132,15 +161,15 @@ def _part(name: str, where: str) -> str:
 
 
 def _without_rounding(named: Float64) -> Float64:
-    """Loads (..., 3) that are nought by symmetry without what rounding left there."""
-    size = np.abs(named).reshape(-1, 3).max(axis=0)
+    """Loads (..., k) that are nought by symmetry without what rounding left there."""
+    size = np.abs(named).reshape(-1, named.shape[-1]).max(axis=0)
     # Shear in N and moments in N m of one beam: of one order, some metres apart.
     return np.where(size > _ROUNDING * size.max(), named, 0.0)
 
 
 def _shown(named: Float64) -> list[int]:
-    """Loads (..., 3) worth a diagram: those that are not nought by symmetry."""
-    return [q for q in range(3) if np.any(named[..., q])] or [0]
+    """Loads (..., k) worth a diagram: those that are not nought by symmetry."""
+    return [q for q in range(named.shape[-1]) if np.any(named[..., q])] or [0]
 
 
 def panel(found: PartsFound, at: int, axis: int) -> str:

@@ -272,11 +272,14 @@ def _equipment(result: "ProcessResult") -> Section:
     rows = []
     for name, table in histories.items():
         at = int(np.argmax(spectra[name]))
-        peaks = table.abs().max()
+        values, time = table.to_numpy(), result.loads.time
+        worst = np.abs(values).argmax(axis=0)
+        peaks = dict(zip(table.columns, zip(values.T, worst)))
         rows.append(
             {
                 "place": name.replace("_", " "),
-                **{axis: float(peaks[axis]) for axis in "xyz"},
+                **{axis: float(v[k]) for axis, (v, k) in peaks.items()},
+                **{f"t{axis}": float(time[k]) for axis, (_, k) in peaks.items()},
                 "spectrum": float(spectra[name][at]),
                 "hertz": float(SPECTRUM_HZ[at]),
             }
@@ -284,12 +287,16 @@ def _equipment(result: "ProcessResult") -> Section:
     heads = {
         "place": "place",
         "x": "peak x m/s²",
+        "tx": "at s",
         "y": "peak y m/s²",
+        "ty": "at s ",
         "z": "peak z m/s²",
+        "tz": " at s",
         "spectrum": "largest response m/s²",
         "hertz": "at Hz",
     }
     formats = dict.fromkeys(("x", "y", "z", "spectrum", "hertz"), ".1f")
+    formats |= dict.fromkeys(("tx", "ty", "tz"), ".3f")
     groups: dict[str, list[str]] = {}
     for name in histories:
         groups.setdefault(name.split(", ", 1)[-1], []).append(name)
@@ -311,7 +318,8 @@ def _equipment(result: "ProcessResult") -> Section:
         text="Accelerations of places that carry equipment, and the largest "
         "acceleration of an oscillator (Q = 10) that stands there and is shaken "
         f"vertically (along {result.vertical}), over its natural frequency. Peaks are "
-        f"along the axes of the deck ({deck_axes(result.airframe.R_AB)}).",
+        "the largest magnitudes with their sign and instant, along the axes of the "
+        f"deck ({deck_axes(result.airframe.R_AB)}).",
         blocks=[
             *pictures,
             table_block(pd.DataFrame(rows), heads, formats, "Peaks and spectra"),

@@ -1,11 +1,13 @@
 """The part of the report on section loads and monitor points."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from drake_landing.parts import tables
+from drake_landing.parts.cuts import NAMED, axis_name
 from drake_landing.parts.observers import PartsFound
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, table_block
@@ -16,37 +18,42 @@ if TYPE_CHECKING:
 # Beams whose loads differ less are mirror images and are shown once.
 _ALIKE = 0.01
 _MINUS = "\N{MINUS SIGN}"  # no line is broken after it
+_SHARE = 0.1  # of shear or bending: smaller loads sideways are not drawn
 _NOUGHT = 1e-6  # of the largest of all parts: rounding
 
 
 def section_loads(result: "ProcessResult") -> Section:
-    """Shear, bending and torsion (N, N m) along each part and over time at one cut."""
+    """Shear, bending and torsion (N, N m) along each part and over time at one cut.
+
+    Those aft, of fuselages to starboard, where they are not small beside them.
+    """
     found = result.parts
     blocks, left_out = [], []
     shown: list[tuple[str, np.ndarray]] = []
-    size = {n: _size(c.named(found.landing.sections[n])) for n, c in found.cuts.items()}
-    nought = _NOUGHT * max(size.values(), default=0.0)
+    drawn = {name: _drawn(found, name) for name in found.cuts}
     for name, cuts in found.cuts.items():
         loads = found.landing.sections[name]
-        named = np.abs(cuts.named(loads))
-        if size[name] <= nought:
-            left_out.append(
-                f"{name} (its shear, bending and torsion are nought by symmetry)"
-            )
-            continue
+        named = np.abs(np.concatenate([d.of(loads) for d in drawn[name]], axis=-1))
         twin = next((n for n, other in shown if _alike(named, other)), None)
         if twin is not None:
             left_out.append(f"{name} (the mirror image of {twin})")
             continue
         shown.append((name, named))
-        bending = cuts.named(loads)[:, found.looked_at[name], 1]
-        worst = int(np.argmax(np.abs(bending)))
-        blocks += [
-            Block(svg=figures.section_envelopes(cuts, found.time, loads, worst)),
-            Block(svg=figures.root_histories(cuts, found, result.practices)),
-        ]
+        for diagrams in drawn[name]:
+            bending = diagrams.of(loads)[:, found.looked_at[name], 1]
+            worst = int(np.argmax(np.abs(bending)))
+            blocks += [
+                Block(
+                    svg=figures.section_envelopes(
+                        cuts, found.time, loads, worst, diagrams
+                    )
+                ),
+                Block(
+                    svg=figures.root_histories(cuts, found, result.practices, diagrams)
+                ),
+            ]
     if shown:
-        blocks.append(_section_table(result, [name for name, _ in shown]))
+        blocks.append(_section_table(found, [name for name, _ in shown], drawn))
     also = f" Left out: {'; '.join(left_out)}." if left_out else ""
     return Section(
         id="sections",
@@ -55,16 +62,33 @@ def section_loads(result: "ProcessResult") -> Section:
         "cross a plane are cut; a section load is the resultant of the gears' loads "
         "and of the inertia of all that lies on the outer side. Shear is upward, "
         "bending lifts the outer end, torsion turns about the outward direction (of "
-        "vertical parts shear and bending are to starboard); their axes in the deck "
-        "stand in the table. Moments refer to a point of each cut, in the table: "
+        "vertical parts shear and bending are to starboard). Fore-and-aft shear is "
+        "aft and its bending turns the outer end aft, side shear and bending of "
+        "fuselages are to starboard; they are drawn where they reach "
+        f"{_SHARE:.0%} of the others. The axes in the deck stand in the table. "
+        "Moments refer to a point of each cut, in the table: "
         f"{_points_said(found)}. Shaded: extremes over time; dashed: when bending at "
         "the cut below is largest. The equilibrium of the whole airframe is missed by "
         f"{found.imbalance[0]:.0e} of the largest applied force and "
-        f"{found.imbalance[1]:.0e} of the moment.{also} All six components, "
-        "fore-and-aft shear and bending among them: results.h5, group parts/sections; "
-        "extremes: section_loads.csv.",
+        f"{found.imbalance[1]:.0e} of the moment.{also} All six components at all "
+        "cuts: results.h5, group parts/sections; extremes: section_loads.csv.",
         blocks=blocks,
     )
+
+
+def _drawn(found: PartsFound, name: str) -> list[figures.Diagrams]:
+    """The diagrams of a part that are worth a picture."""
+    cuts, loads = found.cuts[name], found.landing.sections[name]
+    main, side = figures.Diagrams.main(cuts), figures.Diagrams.sideways(cuts)
+    nought = _NOUGHT * max(
+        (float(np.abs(f).max(initial=0.0)) for f in found.landing.sections.values()),
+        default=0.0,
+    )
+    size, beside = (np.abs(d.of(loads)).max(axis=(0, 1)) for d in (main, side))
+    kept = [main] if size.max() > nought else []
+    if beside.max() > nought and (beside > _SHARE * size[:2]).any():
+        kept.append(side)
+    return kept or [main]
 
 
 def monitor_points(result: "ProcessResult") -> Section:
@@ -100,10 +124,6 @@ def monitor_points(result: "ProcessResult") -> Section:
     )
 
 
-def _size(named: np.ndarray) -> float:
-    return float(np.abs(named).max(initial=0.0))
-
-
 def _points_said(found: PartsFound) -> str:
     lines = [name for name, cuts in found.cuts.items() if cuts.beam.line is not None]
     if len(lines) == len(found.cuts):
@@ -118,36 +138,47 @@ def _alike(a: np.ndarray, b: np.ndarray) -> bool:
     return a.shape == b.shape and bool(np.abs(a - b).max() <= _ALIKE * np.abs(b).max())
 
 
-def _section_table(result: "ProcessResult", names: Sequence[str]) -> Block:
-    """Extremes at the cuts that are looked at over time."""
-    table = tables.section_envelopes(result.parts)
-    at = result.parts.looked_at
-    first = [float(result.parts.cuts[n].beam.stations[at[n]]) for n in names]
-    keep = [
-        (row.beam, row.station) in set(zip(names, first)) for row in table.itertuples()
-    ]
-    table = table[keep].copy()
-    kilo = ["min", "max"]
-    table[kilo] = table[kilo] / 1e3
-    table["cut"] = [f"{row.axis} = {row.station:z.2f} m" for row in table.itertuples()]
-    table["acts"] = [
-        f"{row.quantity} {'along' if row.quantity == 'shear' else 'about'} "
-        f"{row.direction.replace('-', _MINUS)}"
-        for row in table.itertuples()
-    ]
+def _section_table(
+    found: PartsFound,
+    names: Sequence[str],
+    drawn: Mapping[str, Sequence[figures.Diagrams]],
+) -> Block:
+    """Extremes, with their instants, of what is drawn over time."""
+    rows = []
+    for name in names:
+        cuts, at = found.cuts[name], found.looked_at[name]
+        beam = cuts.beam
+        turn = np.cross(beam.direction, beam.side)
+        axes = dict(zip(NAMED, (beam.lift, beam.across, beam.direction)))
+        axes |= dict(zip(beam.sideways, (beam.side, turn)))
+        for diagrams in drawn[name]:
+            values = diagrams.of(found.landing.sections[name][:, at]) / 1e3
+            for q, (quantity, unit) in enumerate(zip(diagrams.names, diagrams.units)):
+                low, high = int(values[:, q].argmin()), int(values[:, q].argmax())
+                way = "along" if unit == "N" else "about"
+                axis = axis_name(axes[quantity]).replace("-", _MINUS)
+                rows.append(
+                    {
+                        "part": name,
+                        "cut": f"{beam.axis} = {beam.stations[at]:z.2f} m",
+                        **dict(zip(("x", "y", "z"), cuts.point[at])),
+                        "acts": f"{quantity} {way} {axis}, k{unit}",
+                        **{"min": values[low, q], "at_min": found.time[low]},
+                        **{"max": values[high, q], "at_max": found.time[high]},
+                    }
+                )
     heads = {
-        "beam": "part",
+        "part": "part",
         "cut": "cut at",
-        "point_x": "point x m",
-        "point_y": "y m",
-        "point_z": "z m",
+        "x": "point x m",
+        "y": "y m",
+        "z": "z m",
         "acts": "quantity",
-        "min": "least kN or kN m",
-        "time_of_min": "at s",
-        "max": "largest kN or kN m",
-        "time_of_max": "at s ",
+        "min": "least",
+        "at_min": "at s",
+        "max": "largest",
+        "at_max": "at s ",
     }
-    formats = {"min": ".1f", "max": ".1f"}
-    formats |= dict.fromkeys(("point_x", "point_y", "point_z"), ".2f")
-    formats |= dict.fromkeys(("time_of_min", "time_of_max"), ".3f")
-    return table_block(table, heads, formats, "Extremes at these cuts")
+    formats = {"min": ".1f", "max": ".1f", "at_min": ".3f", "at_max": ".3f"}
+    formats |= dict.fromkeys(("x", "y", "z"), ".2f")
+    return table_block(pd.DataFrame(rows), heads, formats, "Extremes at these cuts")

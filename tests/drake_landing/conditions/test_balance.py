@@ -156,7 +156,12 @@ def test_tables_say_units_and_name_their_cases(found, tmp_path):
         cases = [c for c in table if c.startswith("case")]
         assert cases, path.name
         assert {c.replace("case", "name", 1) for c in cases} <= set(table), path.name
-        assert not table[[c.replace("case", "name", 1) for c in cases]].isna().any(None)
+        assert (
+            not table[[c.replace("case", "name", 1) for c in cases]]
+            .isna()
+            .to_numpy()
+            .any()
+        )
 
 
 def test_loads_of_a_tow_are_told_apart(found):
