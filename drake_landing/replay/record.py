@@ -42,6 +42,28 @@ if TYPE_CHECKING:
 Float64 = npt.NDArray[np.float64]
 
 # Nothing is fetched, of the page itself or of what a name might bring in.
+# Meshcat makes its controls when the scene is read; they have no names of their own.
+_NAMES = """
+function nameControls() {
+  const region = (element, label) => {
+    if (!element) return;
+    element.setAttribute("role", "region");
+    element.setAttribute("aria-label", label);
+  };
+  region(document.querySelector("#meshcat-pane"), "The landing in three dimensions");
+  document.querySelectorAll(".dg.ac, .lil-gui.root, .dg.main").forEach(
+    (panel, i) => region(panel, "Controls" + (i ? " " + (i + 1) : "")));
+  for (const control of document.querySelectorAll("input, select")) {
+    if (control.getAttribute("aria-label")) continue;
+    let place = control.parentElement;
+    while (place && !place.innerText?.trim()) place = place.parentElement;
+    const text = place ? place.innerText.trim().split("\\n")[0] : "";
+    const kind = control.type === "checkbox" ? "show " : "";
+    control.setAttribute("aria-label", kind + (text || "setting"));
+  }
+}
+for (const wait of [0, 500, 2000, 6000]) setTimeout(nameControls, wait);
+"""
 _POLICY = (
     '<meta http-equiv="Content-Security-Policy" content="default-src \'none\'; '
     "style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:; "
@@ -305,13 +327,15 @@ def _poses_at(time: Float64, poses: Float64, motion: Motion) -> list[RigidTransf
 
 
 def _captioned(html: str, caption: str) -> str:
-    """The page with a line of text at its foot."""
+    """The page with a line of text at its foot, and names for screen readers."""
     style = (
         "position:fixed;left:16px;bottom:12px;padding:6px 12px;border-radius:6px;"
-        "background:rgba(255,255,255,.85);color:#2b3440;font:14px sans-serif"
+        "background:rgba(255,255,255,.85);color:#2b3440;font:14px sans-serif;margin:0"
     )
-    note = f'<div style="{style}">{escape(caption)}</div></body>'
+    heading = f'<main><h1 style="{style}">{escape(caption)}</h1></main>'
     html = html.replace("<head>", f"<head>\n{_POLICY}", 1)
+    html = html.replace("<html>", '<html lang="en">', 1)
     head, _, tail = html.rpartition("</body>")
     title = f"<title>{escape(caption.split(':')[0])}</title>"
-    return (head + note + tail).replace("<title>Drake MeshCat</title>", title)
+    page = f"{head}{heading}<script>{_NAMES}</script></body>{tail}"
+    return page.replace("<title>Drake MeshCat</title>", title)
