@@ -71,7 +71,8 @@ def _kept(campaign: Campaign, file: Path, folder: Path, out: Path | None) -> str
     )
 
 
-_USUAL = 1.5  # s, of a landing that goes on until it has shown its extremes
+_USUAL = 2.0  # s, of a landing that goes on until it has shown its extremes
+_FLY = 5.0  # s of processor time for a second of landing, some 80 modes
 
 
 def explain_campaign(campaign: Campaign) -> str:
@@ -92,7 +93,7 @@ def explain_campaign(campaign: Campaign) -> str:
     )
     return (
         f"{campaign.name}: {len(rows)} landings of {campaign.base}\n{axes}\n"
-        f"  landings    about {3 * sum(duration):.0f} s of processor time to fly, "
+        f"  landings    about {_FLY * sum(duration):.0f} s of processor time to fly, "
         f"files of {1e-6 * steps * 4 * 120 * len(rows):.0f} MB\n"
         f"  confirmed   {campaign.confirm.sample} drawn at random and at most "
         f"{campaign.confirm.most} that decide: {confirmed} direct transients of "

@@ -183,7 +183,7 @@ def draw_field(
     top = top if field.top is None else field.top
     scale = (0.0, max(top, 1e-6 * field.unit))
     bar = {
-        "title": field.title,
+        "title": f"{field.title}\n",  # else it stands in the numbers
         "vertical": False,
         "position_x": 0.30,
         "position_y": 0.02,
