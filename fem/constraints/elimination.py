@@ -19,8 +19,10 @@ from fem.constraints.equations import Equations, concatenate
 from fem.constraints.feet import read_feet
 from fem.constraints.mpc import read_mpc
 from fem.constraints.rbe3 import read_rbe3
-from fem.constraints.rigid import read_rbar, read_rbe2
+from fem.constraints.rigid import read_rbe2
+from fem.constraints.rigid_bodies import read_bodies
 from fem.constraints.spc import SinglePointConstraints, read_spc
+from fem.constraints.spline import read_splines
 from fem.errors import InputError
 from fem.geometry.points import Points
 
@@ -170,7 +172,8 @@ def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equatio
     equations: list[Equations] = []
     for read in (
         lambda: read_rbe2(deck, points),
-        lambda: read_rbar(deck, points),
+        lambda: read_bodies(deck, points),
+        lambda: read_splines(deck, points),
         lambda: read_rbe3(deck, points),
         lambda: read_mpc(deck, points, mpc),
         lambda: read_feet(deck, points),

@@ -1,16 +1,10 @@
-"""RBE2 and RBAR: rigid bodies."""
+"""RBE2: grids that follow another one as a rigid body."""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
-from fem.constraints.equations import (
-    Equations,
-    components,
-    dense_equations,
-    rigid_motion,
-)
+from fem.constraints.equations import Equations, rigid_motion
 from fem.deck.references import table, where
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -57,50 +51,3 @@ def read_rbe2(deck: "Deck", points: Points) -> list[Equations]:
             source=tuple(names[p] for p in pair),
         )
     ]
-
-
-def read_rbar(deck: "Deck", points: Points) -> list[Equations]:
-    """Equations of all RBAR: six components at both ends move all others.
-
-    Raises:
-        InputError: undefined grids, independent components that are not six or do not
-            determine a rigid motion.
-    """
-    rows = table(deck, "RBAR")
-    equations, problems = [], []
-    for _, row in rows.iterrows():
-        try:
-            equations.append(_rbar(row, points))
-        except InputError as error:
-            problems += [f"{where('RBAR', row)}: {p}" for p in error.problems]
-    if problems:
-        raise InputError(problems)
-    return equations
-
-
-def _rbar(row: pd.Series, points: Points) -> Equations:
-    at = points.rows([row["ga"], row["gb"]])
-    motion = rigid_motion(points.xyz[at] - points.xyz[at[0]], points.rotation[at])
-    motion = motion.reshape(12, 6)
-    independent = np.concatenate([components(row["cna"]), 6 + components(row["cnb"])])
-    dependent = np.concatenate([components(row["cma"]), 6 + components(row["cmb"])])
-    if not len(dependent):
-        dependent = np.setdiff1d(np.arange(12), independent)
-    if len(independent) != 6:
-        raise InputError(
-            f"{len(independent)} independent components, expected 6 in CNA and CNB"
-        )
-    if len(np.intersect1d(independent, dependent)):
-        raise InputError("a component is both independent and dependent")
-    lever = np.linalg.norm(points.xyz[at[1]] - points.xyz[at[0]]) or 1.0
-    scale = np.repeat([1.0, 1.0 / lever], 3)
-    chosen = motion[independent] * scale
-    if np.linalg.cond(chosen / np.linalg.norm(chosen, axis=1, keepdims=True)) > 1e10:
-        raise InputError("the independent components do not determine a rigid motion")
-    matrix = np.linalg.solve(chosen.T, (motion[dependent] * scale).T).T
-    # Rounding of the solve; such entries would make chains of constraints fill.
-    matrix[np.abs(matrix) < 1e-14 * np.abs(matrix).max()] = 0.0
-    dof = (6 * at[:, None] + np.arange(6)).reshape(-1)
-    return dense_equations(
-        dof[dependent], dof[independent], matrix, f"RBAR {row['eid']}"
-    )

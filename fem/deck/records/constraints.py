@@ -1,7 +1,7 @@
 """Rigid elements, constraints, sets of a reduction."""
 
 from fem.deck import conversions
-from fem.deck.cards import from_pynastran, lists
+from fem.deck.cards import from_pynastran, lists, rigid_bodies
 from fem.deck.records.card import Card
 
 _GROUP, _SETS = "Rigid elements, constraints", "Sets of a reduction"
@@ -28,6 +28,31 @@ RECORDS = (
         name="RBAR",
         group=_GROUP,
         fields="eid:i ga:i>GRID gb:i>GRID cna:c= cnb:c= cma:c= cmb:c= -",
+        ids="own",
+    ),
+    # Grids and components of independent (n) and dependent (m) freedoms.
+    Card(
+        name="RBE1",
+        group=_GROUP,
+        read=rigid_bodies.rbe1,
+        more="eid:i card:s ns:*>GRID cns:* ms:*>GRID cms:* grids:*>GRID",
+        ids="own",
+    ),
+    Card(name="RBAR1", group=_GROUP, read=rigid_bodies.rbar1, table="RBE1"),
+    Card(name="RJOINT", group=_GROUP, read=rigid_bodies.rbar1, table="RBE1"),
+    Card(name="RTRPLT", group=_GROUP, read=rigid_bodies.rtrplt, table="RBE1"),
+    Card(name="RTRPLT1", group=_GROUP, read=rigid_bodies.rtrplt1, table="RBE1"),
+    Card(
+        name="RROD",
+        group=_GROUP,
+        fields="eid:i ga:i>GRID gb:i>GRID cma:c= cmb:c= -",
+        ids="own",
+    ),
+    Card(
+        name="RSPLINE",
+        group=_GROUP,
+        read=rigid_bodies.rspline,
+        more="eid:i ratio:f[1] grids:*>GRID comps:*",
         ids="own",
     ),
     # comps: integers, 0 for a scalar point
