@@ -34,6 +34,7 @@ from drake_landing.gears.data import LandingGear
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
+from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import parts_looked_at
@@ -49,6 +50,7 @@ from fem.model.structure import Structure
 
 _AT_ONCE = 200_000  # freedoms that are factorised without being asked, some seconds
 _HEAD = 12  # characters
+_COMPONENTS = 8  # that are named
 _USUAL = 1.2  # s, of a landing that ends by itself
 
 # Processor seconds as measured: fixed ones, per second of landing, per mode of that,
@@ -83,7 +85,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
     with case.reading(), TemporaryDirectory() as folder:
         aircraft, structure, remarks = checked_aircraft(case, Path(folder))
         nodes = np.array(sorted(aircraft.attachment_nodes), dtype=np.int64)
-        parts_looked_at(case, aircraft, structure, nodes)
+        _, elements, _ = parts_looked_at(case, aircraft, structure, nodes)
         cost, step, truncated, refused = None, None, "", None
         if thorough or structure.size <= _AT_ONCE:
             check_free_flight(structure)
@@ -100,7 +102,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         _dry_run(case, aircraft, structure)
         conditions = list(_conditions(case, aircraft, structure))
     lines = [*_airframe(case, aircraft, structure, cost, truncated)]
-    lines += [*_gears(aircraft), *_touchdown(case, aircraft)]
+    lines += [_components(elements), *_gears(aircraft), *_touchdown(case, aircraft)]
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
     lines += conditions
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
@@ -211,6 +213,15 @@ def _airframe(
     yield _line("damping", damping_story(structure))
     points = ", ".join(f"{n} ({grid})" for n, grid in aircraft.monitoring.items())
     yield _line("points", f"{points}: accelerations of both models")
+
+
+def _components(elements: Inventory) -> str:
+    """Of what the stresses will be told, and how to name it otherwise."""
+    counts = elements.elements.component.value_counts()
+    said = [f"{name} ({count})" for name, count in counts.head(_COMPONENTS).items()]
+    said += [f"{len(counts) - _COMPONENTS} more"] * (len(counts) > _COMPONENTS)
+    named = ", ".join(said) or "none with stresses"
+    return _line("components", f"{named} elements; parts.components names others")
 
 
 def _gears(aircraft: Aircraft) -> Iterator[str]:

@@ -5,7 +5,7 @@ In this order, element by element:
     1. HyperMesh ($HMNAME PROP, COMP; $HMMOVE), Femap ($ Femap Property) and Patran
        ($ Elements and Element Properties for region) name properties or elements
     2. a banner, a title between two lines of dashes, names all cards up to the next one
-    3. where the elements come from several files, the name of the file
+    3. where the elements come from several files, the name of the file (`file_names`)
     4. their kind: sheets, laminates, bars, ...
 
 Names that only number properties (pcomp.1, PBAR 2) are no names.
@@ -18,6 +18,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pandas as pd
+
+from drake_landing.show.file_names import names_of_files
 
 _RULE = re.compile(r"^\$\s*[-=*#_]{8,}\s*$")
 _BY_PROPERTY = (
@@ -99,16 +101,14 @@ def component_names(names: Names, elements: pd.DataFrame) -> list[str]:
         names: of the deck.
         elements: columns `card`, `pid`, `file` and `line`, `id` where known.
     """
-    several = elements.file.nunique() > 1
+    of_file = names_of_files(elements.file) if elements.file.nunique() > 1 else {}
     ids = elements.id if "id" in elements else [0] * len(elements)
     rows = zip(ids, elements.card, elements.pid, elements.file, elements.line)
     result = []
     for eid, card, pid, file, line in rows:
         name = names.elements.get(eid) or names.properties.get(pid)
         name = name or names.at(file, line)
-        if not name and several:
-            name = Path(file).stem
-        result.append(plain(name) if name else kind_of(card))
+        result.append(plain(name) if name else of_file.get(file) or kind_of(card))
     return result
 
 
