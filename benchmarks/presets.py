@@ -98,9 +98,7 @@ def at_rest(
     loads = {}
     for gear in gears:
         tires = [landing.tires[wheel] for wheel in gear.wheel_names]
-        ports = [(t.GetOutputPort("contact"), t) for t in tires]
-        contacts = [p.Eval(t.GetMyContextFromRoot(context)) for p, t in ports]
-        loads[gear.name] = float(sum(contact[1] for contact in contacts))
+        loads[gear.name] = float(sum(tire.contact(context).F_z for tire in tires))
     airframe = landing.airframe.GetMyContextFromRoot(context)
     return loads, landing.airframe.GetOutputPort("pose").Eval(airframe)[6]
 

@@ -3,9 +3,10 @@
 Each gear is dropped on its own (`drop`) with its share of the aircraft, at the sink
 rate and the speed of the scenario; drag and side force act at the axle. Side force
 comes from drift, and, on gears off the centre plane, from an airframe that bends and
-swings its wheels sideways: a share of the drag, as sudden, stands for it. Where
-aircraft and scenario are symmetric, gears of a pair act together: antisymmetric modes
-are then known to be idle.
+swings its wheels sideways: a share of the drag, as sudden, stands for it. A leg that
+bends hands both on as spring and damper of a mass at the axle do (root clamped, the
+other motions locked): the drag swings back. Where aircraft and scenario are symmetric,
+gears of a pair act together: antisymmetric modes are then known to be idle.
 """
 
 from collections.abc import Sequence
@@ -15,8 +16,10 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.airframe.drop import DropPulse, drop_pulse
+from drake_landing.airframe.oscillators import modal_accelerations
 from drake_landing.case.schema import Scenario
 from drake_landing.gears.data import LandingGear
+from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.gears.parameters import tire_parameters
 from drake_landing.landing.lift import STANDARD_GRAVITY
 from systems.runway.runway import Runway
@@ -91,7 +94,10 @@ def touchdown_pulses(
             side = friction * _side_ratio(gears[i], scenario, shares[i])
             side = side * pulse.vertical
             side = side + _swing(gears[i], p_AG) * pulse.drag
-            load = _at_node(pulse, arm, side)
+            legs = leg_oscillators(gears[i], p_AN[node])
+            drag = through_leg(pulse.drag, STEP, legs.get("fore_aft"))
+            side = through_leg(side, STEP, legs.get("lateral"))
+            load = _at_node(drag, side, pulse, arm)
             loads.append((load.reshape(-1, 2, 3) @ R_AB).reshape(-1, 6))
             nodes.append(node)
         pulses.append(
@@ -167,8 +173,32 @@ def _swing(gear: LandingGear, p_AG: Float64) -> float:
     return _SWING * float(np.sign(offset)) if abs(offset) > _CENTRE else 0.0
 
 
-def _at_node(pulse: DropPulse, arm: Float64, side: Float64) -> Float64:
+def through_leg(
+    force: Float64, step: float, leg: tuple[float, float] | None
+) -> Float64:
+    """(t,) what spring and damper of a leg hand on of a force at the axle, N.
+
+    Exact for forces that are linear between samples.
+
+    Args:
+        force: (t,) N, at even times, from rest.
+        step: s.
+        leg: rad/s and damping ratio; None for a rigid leg, which hands all on.
+    """
+    if leg is None:
+        return force
+    rate, ratio = leg
+    frequency, damping = (
+        np.array([rate / (2.0 * np.pi)]),
+        np.array([2.0 * ratio * rate]),
+    )
+    # Of a unit mass: what does not accelerate it.
+    mass = modal_accelerations(frequency, damping, force[:, None], step)
+    return force - mass[:, 0]
+
+
+def _at_node(drag: Float64, side: Float64, pulse: DropPulse, arm: Float64) -> Float64:
     """(t, 6) force and moment about the node in A; the axle carries the force."""
-    force = np.column_stack([pulse.drag, side, pulse.vertical])
+    force = np.column_stack([drag, side, pulse.vertical])
     axle = arm + np.outer(pulse.stroke, [0.0, 0.0, 1.0])
     return np.hstack([force, np.cross(axle, force)])

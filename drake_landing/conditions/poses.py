@@ -180,9 +180,7 @@ class GearStand:
         return float(kinematics.GetOutputPort(f"strut_{gear}").Eval(of_system)[0])
 
     def _contact(self, wheel: str) -> Float64:
-        tire = self.landing.tires[wheel]
-        of_system = tire.GetMyContextFromRoot(self.context)
-        return tire.GetOutputPort("contact").Eval(of_system)
+        return self.landing.tires[wheel].contact(self.context)[:]
 
     def _wheel(self, wheel: str) -> Float64:
         """(3,) centre of a wheel, A."""

@@ -23,7 +23,7 @@ from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
 
 from drake_landing.gears.bodies import AddLandingGear
 from drake_landing.gears.data import LandingGear
-from drake_landing.gears.systems import AddGearSystems
+from drake_landing.gears.systems import AddGearSystems, each_of
 from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_law import ShockAbsorberTunables
@@ -54,7 +54,7 @@ class DropRig:
     @property
     def strut(self) -> Any:
         """Its shock absorber."""
-        return self.diagram.GetSubsystemByName(f"shock_absorber_{self.gear.name}")
+        return self.diagram.GetSubsystemByName("shock_absorbers")
 
     def ToAutoDiffXd(self) -> Self:
         """The same rig for AutoDiffXd, without logs."""
@@ -221,7 +221,7 @@ def drop_rig(
         plant.GetInputPort("applied_generalized_force"),
     )
     budget = AddEnergyBudget(builder, plant, list(parts.by_name.values()))
-    strut, kinematics = parts.shock_absorbers[gear.name], parts.wheel_kinematics
+    strut, kinematics = parts.shock_absorber, parts.wheel_kinematics
     if controller is not None:
         builder.AddNamedSystem("controller", controller)
         for source, port, target in (
@@ -234,15 +234,13 @@ def drop_rig(
         "force": strut.GetOutputPort("force"),
         "total": budget.GetOutputPort("total"),
     }
-    for wheel, tire in parts.tires.items():
-        ports[f"contact_{wheel}"] = tire.GetOutputPort("contact")
+    wheels = list(parts.tires)
+    contacts = each_of(builder, parts.tire, "contact", wheels, "tire contacts")
+    ports |= {f"contact_{wheel}": contacts[wheel] for wheel in wheels}
     loggers = {n: LogVectorOutput(p, builder) for n, p in ports.items()} if log else {}
     diagram = builder.Build()
     context = diagram.CreateDefaultContext()
-    clearances = [
-        tire.clearance(tire.GetMyContextFromRoot(context))
-        for tire in parts.tires.values()
-    ]
+    clearances = [tire.clearance(context) for tire in parts.tires.values()]
     return DropRig(
         diagram=diagram,
         gear=gear,

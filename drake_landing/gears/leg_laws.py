@@ -24,7 +24,7 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import JacobianWrtVariable, PrismaticJoint, RevoluteJoint
 from pydrake.systems.framework import Context
 
-from drake_landing.gears.bodies import GearBodies, leg_axis
+from drake_landing.gears.bodies import AddLandingGear, GearBodies, leg_axis
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.leg_beam import deflection_per_force
 from drake_landing.gears.leg_hinges import KINDS, hinge_axis
@@ -91,6 +91,30 @@ def elastic_leg(
         damping=damping,
         free_play=np.radians(play),
     )
+
+
+def leg_oscillators(gear: LandingGear, p_BA: Float64) -> dict[str, tuple[float, float]]:
+    """Each motion of the extended leg by itself: hinge -> angular frequency, damping.
+
+    Args:
+        gear: any; a rigid leg has no motion.
+        p_BA: (3,) where the airframe holds it, m.
+
+    Returns:
+        rad/s, and the ratio to critical damping.
+    """
+    if gear.leg is None:
+        return {}
+    plant = MultibodyPlant(0.0)
+    bodies = AddLandingGear(plant, gear, p_BA)
+    plant.Finalize()
+    law, context = elastic_leg(plant, gear, bodies), plant.CreateDefaultContext()
+    found = {}
+    for j, kind in enumerate(bodies.hinges):
+        inertia = _swinging_inertia(plant, bodies, kind, context)
+        rate = math.sqrt(law.stiffness[0, j, j] / inertia)
+        found[kind] = rate, law.damping[0, j, j] / (2.0 * rate * inertia)
+    return found
 
 
 def _matrix_stiffness(

@@ -1,7 +1,7 @@
 """The systems around a plant that make its landing gears work.
 
-plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_*, brake_*,
-pitch_damper_* ─▸ gear_forces ─▸ plant
+plant.state ─▸ wheel_kinematics ─▸ tires, shock_absorbers, brake_*, pitch_damper_*
+─▸ gear_forces ─▸ plant
 plant.state ─▸ elastic_legs ─▸ gear_forces
 """
 
@@ -11,10 +11,12 @@ from typing import Any, cast
 
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import DiagramBuilder
+from pydrake.systems.primitives import Demultiplexer
 
 from drake_landing.gears.bodies import GearBodies
 from drake_landing.gears.data import BogieGear, LandingGear
 from drake_landing.gears.leg_laws import elastic_leg, hinge_columns
+from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire
 from drake_landing.gears.parameters import (
     bogie_pitch_parameters,
     brake_parameters,
@@ -38,7 +40,7 @@ class GearSystems:
     """What `AddGearSystems` added.
 
     Attributes:
-        wheel_kinematics, gear_forces: one each.
+        wheel_kinematics, gear_forces, tire, shock_absorber: one each.
         tires: by wheel.
         shock_absorbers: by gear.
         brakes: by wheel; of gears that have them.
@@ -48,8 +50,10 @@ class GearSystems:
 
     wheel_kinematics: Any = field(repr=False)
     gear_forces: Any = field(repr=False)
-    tires: dict[str, Any] = field(repr=False)
-    shock_absorbers: dict[str, Any] = field(repr=False)
+    tire: Any = field(repr=False)
+    shock_absorber: Any = field(repr=False)
+    tires: dict[str, MountedTire] = field(repr=False)
+    shock_absorbers: dict[str, MountedShockAbsorber] = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
     elastic_legs: Any = field(default=None, repr=False)
@@ -57,13 +61,9 @@ class GearSystems:
     @property
     def by_name(self) -> dict[str, Any]:
         """All that store or dissipate energy, by the names in the diagram."""
-        kinds = {
-            "tire": self.tires,
-            "shock_absorber": self.shock_absorbers,
-            "brake": self.brakes,
-            "pitch_damper": self.pitch_dampers,
-        }
-        found = {f"{k}_{n}": s for k, group in kinds.items() for n, s in group.items()}
+        kinds = {"brake": self.brakes, "pitch_damper": self.pitch_dampers}
+        found = {"tires": self.tire, "shock_absorbers": self.shock_absorber}
+        found |= {f"{k}_{n}": s for k, group in kinds.items() for n, s in group.items()}
         return found | (
             {"elastic_legs": self.elastic_legs} if self.elastic_legs else {}
         )
@@ -80,11 +80,10 @@ def AddGearSystems(
 ) -> GearSystems:
     """Adds tyres, shock absorbers and what connects them to a plant.
 
-    They are named `wheel_kinematics`, `gear_forces`, `tire_<wheel>`,
-    `shock_absorber_<gear>`, for gears that have them `brake_<wheel>` and
-    `pitch_damper_<gear>`, where bearings rub `side_load_<gear>`, and for all gears that
-    bend `elastic_legs`. One connection is
-    left to the caller: the port `spatial_forces` of `gear_forces` belongs to the
+    They are named `wheel_kinematics`, `gear_forces`, `tires`, `shock_absorbers`, for
+    gears that have them `brake_<wheel>` and `pitch_damper_<gear>`, where bearings rub
+    `side_load`, and for all gears that bend `elastic_legs`. One connection is left to
+    the caller: the port `spatial_forces` of `gear_forces` belongs to the
     plant's `applied_spatial_force`, alone or joined with other forces.
 
     Args:
@@ -119,23 +118,31 @@ def AddGearSystems(
             plant, wheels, struts, spins, pitches, elastic_legs=legs is not None
         ),
     )
+    laws = [shock_absorber_parameters(gear.shock_absorber) for gear in gears]
+    tire = builder.AddNamedSystem("tires", cast(Any, Tire)(_tires(gears), runway))
+    absorber = builder.AddNamedSystem("shock_absorbers", cast(Any, ShockAbsorber)(laws))
+    absorbers = [MountedShockAbsorber(absorber, i) for i in range(len(gears))]
     systems = GearSystems(
         wheel_kinematics=kinematics,
         gear_forces=forces,
-        tires={},
-        shock_absorbers={},
+        tire=tire,
+        shock_absorber=absorber,
+        tires={name: MountedTire(tire, i) for i, name in enumerate(wheels)},
+        shock_absorbers=dict(zip(struts, absorbers)),
         brakes={},
         pitch_dampers={},
         elastic_legs=legs,
     )
-    for gear in gears:
-        _add_laws(builder, gear, runway, systems)
-        if gear.brake and brakes:
-            _add_brakes(builder, gear, systems)
-
     _connect(builder, plant, "state", kinematics, "plant_state")
-    for gear in gears:
-        _connect_gear(builder, gear, systems)
+    _connect(builder, kinematics, "wheels", tire, "wheel")
+    _connect(builder, tire, "wrench", forces, "wrench")
+    _connect(builder, kinematics, "struts", absorber, "strut_state")
+    _connect(builder, absorber, "force", forces, "strut_force")
+    if brakes:
+        _add_brakes(builder, gears, systems)
+    _add_pitch_dampers(builder, gears, systems)
+    if any(gear.shock_absorber.bearing_friction > 0 for gear in gears):
+        _add_side_load(builder, gears, systems)
     for name, strut in struts.items():
         if isinstance(strut, LeverStrut):
             ratio = f"strut_ratio_{name}"
@@ -166,89 +173,87 @@ def _add_elastic_legs(
     return legs
 
 
-def _add_laws(
-    builder: DiagramBuilder,
-    gear: LandingGear,
-    runway: Runway | None,
-    systems: GearSystems,
-) -> None:
-    tire, absorber, pitch = (
-        cast(Any, kind) for kind in (Tire, ShockAbsorber, BogiePitch)
-    )
-    common = tire_parameters(gear.tyre)
-    for wheel in gear.wheel_names:
-        single = gear.tyres.get(wheel)
-        law = common if single is None else tire_parameters(single)
-        systems.tires[wheel] = builder.AddNamedSystem(
-            f"tire_{wheel}", tire(law, runway)
-        )
-    systems.shock_absorbers[gear.name] = builder.AddNamedSystem(
-        f"shock_absorber_{gear.name}",
-        absorber(shock_absorber_parameters(gear.shock_absorber)),
-    )
-    if isinstance(gear, BogieGear):
-        systems.pitch_dampers[gear.name] = builder.AddNamedSystem(
-            f"pitch_damper_{gear.name}",
-            pitch(bogie_pitch_parameters(gear.pitch_damper)),
-        )
+def each_of(
+    builder: DiagramBuilder, system: Any, port: str, names: Sequence[str], title: str
+) -> dict[str, Any]:
+    """Output ports of equal size for each name, cut from one of a system.
+
+    Args:
+        builder: that holds the system.
+        system: e.g. `tires`.
+        port: whose vector is of one after the other.
+        names: in that order.
+        title: name of what cuts.
+    """
+    whole = system.GetOutputPort(port)
+    cut = Demultiplexer([whole.size() // len(names)] * len(names))
+    builder.AddNamedSystem(title, cut)
+    builder.Connect(whole, cut.get_input_port())
+    return {name: cut.get_output_port(i) for i, name in enumerate(names)}
+
+
+def _tires(gears: Sequence[LandingGear]) -> list[Any]:
+    found = []
+    for gear in gears:
+        common = tire_parameters(gear.tyre)
+        for wheel in gear.wheel_names:
+            single = gear.tyres.get(wheel)
+            found.append(common if single is None else tire_parameters(single))
+    return found
 
 
 def _add_brakes(
-    builder: DiagramBuilder, gear: LandingGear, systems: GearSystems
-) -> None:
-    assert gear.brake is not None
-    law = brake_parameters(gear.brake)
-    for wheel in gear.wheel_names:
-        brake = builder.AddNamedSystem(f"brake_{wheel}", cast(Any, Brake)(law))
-        systems.brakes[wheel] = brake
-
-
-def _connect_gear(
-    builder: DiagramBuilder, gear: LandingGear, systems: GearSystems
+    builder: DiagramBuilder, gears: Sequence[LandingGear], systems: GearSystems
 ) -> None:
     kinematics, forces = systems.wheel_kinematics, systems.gear_forces
-    name, absorber = gear.name, systems.shock_absorbers[gear.name]
-    for wheel in gear.wheel_names:
-        tire = systems.tires[wheel]
-        _connect(builder, kinematics, f"wheel_{wheel}", tire, "wheel")
-        _connect(builder, tire, "wrench", forces, f"tire_{wheel}")
-        brake = systems.brakes.get(wheel)
-        if brake is not None:
+    contacts: dict[str, Any] = {}
+    for gear in gears:
+        if gear.brake is None:
+            continue
+        law = brake_parameters(gear.brake)
+        for wheel in gear.wheel_names:
+            brake = builder.AddNamedSystem(f"brake_{wheel}", cast(Any, Brake)(law))
+            systems.brakes[wheel] = brake
             _connect(builder, kinematics, f"spin_{wheel}", brake, "wheel_spin")
             _connect(builder, brake, "torque", forces, f"brake_{wheel}")
-            if brake.parameters.anti_skid:
-                _connect(builder, tire, "contact", brake, "contact")
-    _connect(builder, kinematics, f"strut_{name}", absorber, "strut_state")
-    _connect(builder, absorber, "force", forces, f"strut_{name}")
-    if name in systems.pitch_dampers:
-        damper = systems.pitch_dampers[name]
-        _connect(builder, kinematics, f"pitch_{name}", damper, "pitch")
-        _connect(builder, damper, "torque", forces, f"pitch_{name}")
-    if gear.shock_absorber.bearing_friction > 0:
-        _add_side_load(
-            builder, gear, kinematics, systems.tires, systems.brakes, absorber
-        )
+            if law.anti_skid:
+                contacts = contacts or each_of(
+                    builder, systems.tire, "contact", list(systems.tires), "skids"
+                )
+                builder.Connect(contacts[wheel], brake.GetInputPort("contact"))
+
+
+def _add_pitch_dampers(
+    builder: DiagramBuilder, gears: Sequence[LandingGear], systems: GearSystems
+) -> None:
+    for gear in gears:
+        if not isinstance(gear, BogieGear):
+            continue
+        law = bogie_pitch_parameters(gear.pitch_damper)
+        damper = cast(Any, BogiePitch)(law)
+        name = gear.name
+        systems.pitch_dampers[name] = damper
+        builder.AddNamedSystem(f"pitch_damper_{name}", damper)
+        _connect(builder, systems.wheel_kinematics, f"pitch_{name}", damper, "pitch")
+        _connect(builder, damper, "torque", systems.gear_forces, f"pitch_{name}")
 
 
 def _add_side_load(
-    builder: DiagramBuilder,
-    gear: LandingGear,
-    kinematics: Any,
-    tires: dict[str, Any],
-    brakes: dict[str, Any],
-    absorber: Any,
+    builder: DiagramBuilder, gears: Sequence[LandingGear], systems: GearSystems
 ) -> None:
-    offsets = gear.wheel_offsets * len(gear.axles)
-    wheels = dict(zip(gear.wheel_names, offsets))
-    side_load = SideLoad(wheels, [name for name in wheels if name in brakes])
-    builder.AddNamedSystem(f"side_load_{gear.name}", side_load)
-    _connect(builder, kinematics, f"strut_axis_{gear.name}", side_load, "strut_axis")
-    for wheel in gear.wheel_names:
-        _connect(builder, kinematics, f"wheel_{wheel}", side_load, f"wheel_{wheel}")
-        _connect(builder, tires[wheel], "wrench", side_load, f"tire_{wheel}")
-        if wheel in brakes:
-            _connect(builder, brakes[wheel], "torque", side_load, f"brake_{wheel}")
-    _connect(builder, side_load, "side_load", absorber, "side_load")
+    kinematics, brakes = systems.wheel_kinematics, systems.brakes
+    struts = [
+        dict(zip(gear.wheel_names, gear.wheel_offsets * len(gear.axles)))
+        for gear in gears
+    ]
+    side_load = cast(Any, SideLoad)(struts, list(brakes))
+    builder.AddNamedSystem("side_load", side_load)
+    _connect(builder, kinematics, "strut_axes", side_load, "strut_axes")
+    _connect(builder, kinematics, "wheels", side_load, "wheels")
+    _connect(builder, systems.tire, "wrench", side_load, "wrench")
+    for wheel, brake in brakes.items():
+        _connect(builder, brake, "torque", side_load, f"brake_{wheel}")
+    _connect(builder, side_load, "side_load", systems.shock_absorber, "side_load")
 
 
 def _connect(

@@ -1,14 +1,13 @@
 """The diagram of a landing: airframe, gears, tyres, and what connects them.
 
-    plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_*, ... ─▸ gear_forces
+    plant.state ─▸ wheel_kinematics ─▸ tires, shock_absorbers, ... ─▸ gear_forces
     gear_forces, airframe.node_*, plant.state ─▸ attachment
     attachment.wrench_on_airframe ─▸ airframe
     attachment.wrench_on_gear, gear_forces ─▸ plant
 
 Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_forces`,
-`tire_<wheel>`, `shock_absorber_<gear>` and `energy_budget`; where there are such,
-`brake_<wheel>`, `pitch_damper_<gear>`, `side_load_<gear>`, `elastic_legs`, `lift` and
-`reverse_thrust`.
+`tires`, `shock_absorbers` and `energy_budget`; where there are such, `brake_<wheel>`,
+`pitch_damper_<gear>`, `side_load`, `elastic_legs`, `lift` and `reverse_thrust`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -27,7 +26,8 @@ from drake_landing.gears.attachment_points import (
 )
 from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
 from drake_landing.gears.data import LandingGear
-from drake_landing.gears.systems import AddGearSystems, GearSystems
+from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire
+from drake_landing.gears.systems import AddGearSystems, GearSystems, each_of
 from drake_landing.landing.lift import AddLift, Lift
 from systems.airframe.distributed_load import DistributedLoad
 from systems.airframe.flexible_airframe import FlexibleAirframe
@@ -40,13 +40,16 @@ from systems.runway.runway import Runway
 
 _OFF_GROUND = 1.0  # m
 
+# Of each tyre, and of each shock absorber.
+_OF_TIRES = ("contact", "wrench")
+_OF_ABSORBERS = ("force", "components")
 _LOGGED = {
     "airframe": ("pose", "modal_amplitudes", "monitor_acceleration", "energy"),
     "attachment": ("load_in_airframe_axes", "gap"),
     "plant": ("state",),
     "energy_budget": ("total", "dissipated", "supplied"),
-    "tire": ("contact", "wrench", "energy"),
-    "shock_absorber": ("force", "components", "energy"),
+    "tires": ("energy",),
+    "shock_absorbers": ("energy",),
     "brake": ("torque",),
     "pitch_damper": ("torque", "energy"),
     "elastic_legs": ("energy",),
@@ -66,8 +69,7 @@ class LandingDiagram:
         simulator = Simulator(landing.diagram)
         context = simulator.get_mutable_context()
         set_initial_state(landing, context, v_WG=[-67.0, 0.0, -3.05])
-        strut = landing.shock_absorbers["nose"].GetMyMutableContextFromRoot(context)
-        strut.get_mutable_numeric_parameter(0).SetAtIndex(0, 13e3)  # precharge, N
+        landing.shock_absorbers["nose"].set_tunables(context, precharge=13e3)  # N
         simulator.AdvanceTo(1.0)
         log = landing.loggers["attachment.load_in_airframe_axes"].FindLog(context)
 
@@ -77,7 +79,7 @@ class LandingDiagram:
         plant: the gears' bodies.
         airframe, attachment, wheel_kinematics, gear_forces: one each.
         tires: by wheel.
-        shock_absorbers: by gear.
+        shock_absorbers: by gear; `shock_absorber`, the system of all.
         brakes: by wheel, of gears that have them.
         pitch_dampers: by gear, of bogies.
         elastic_legs: of all gears that bend; None where none does.
@@ -85,8 +87,10 @@ class LandingDiagram:
         lift: None where lift equals weight and neither acts.
         reverse_thrust: None where there is none.
         energy_budget: None where not asked for.
-        loggers: by "<system>.<port>", one sample per integration step; stroke and rate
-            of a gear as "strut_<gear>.strut", what a leg bends as
+        loggers: by "<system>.<port>", one sample per integration step; of single tyres
+            and shock absorbers as "tire_<wheel>.contact", "tire_<wheel>.wrench",
+            "shock_absorber_<gear>.force" and "shock_absorber_<gear>.components"; stroke
+            and rate of a gear as "strut_<gear>.strut", what a leg bends as
             "elastic_legs.deflection_<gear>".
         body, gears, runway, gravity: what it was made from.
     """
@@ -97,8 +101,9 @@ class LandingDiagram:
     attachment: Attachment = field(repr=False)
     wheel_kinematics: Any = field(repr=False)
     gear_forces: Any = field(repr=False)
-    tires: dict[str, Any] = field(repr=False)
-    shock_absorbers: dict[str, Any] = field(repr=False)
+    tires: dict[str, MountedTire] = field(repr=False)
+    shock_absorbers: dict[str, MountedShockAbsorber] = field(repr=False)
+    shock_absorber: Any = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
     elastic_legs: Any = field(repr=False)
@@ -221,6 +226,7 @@ def MakeLandingDiagram(
         gear_forces=parts.gear_forces,
         tires=parts.tires,
         shock_absorbers=parts.shock_absorbers,
+        shock_absorber=parts.shock_absorber,
         brakes=parts.brakes,
         pitch_dampers=parts.pitch_dampers,
         elastic_legs=parts.elastic_legs,
@@ -282,6 +288,13 @@ def _add_loggers(
         kind = next(kind for kind in _LOGGED if name.startswith(kind))
         for port in _LOGGED[kind]:
             ports[f"{name}.{port}"] = system.GetOutputPort(port)
+    for kind, system, names, wanted in (
+        ("tire", parts.tire, list(parts.tires), _OF_TIRES),
+        ("shock_absorber", parts.shock_absorber, list(bodies), _OF_ABSORBERS),
+    ):
+        for port in wanted:
+            each = each_of(builder, system, port, names, f"{kind} {port}s")
+            ports |= {f"{kind}_{name}.{port}": each[name] for name in names}
     for gear in parts.shock_absorbers:
         port = parts.wheel_kinematics.GetOutputPort(f"strut_{gear}")
         ports[f"strut_{gear}.strut"] = port

@@ -188,8 +188,8 @@ class _Rest:
         for joint, value in zip(self._joints, u[at:]):
             _set_position(joint, self._plant, float(value))
         self._landing.attachment.place_fittings(self._context)
-        for absorber in self._landing.shock_absorbers.values():
-            absorber.settle(absorber.GetMyMutableContextFromRoot(self._context))
+        absorber = self._landing.shock_absorber
+        absorber.settle(absorber.GetMyMutableContextFromRoot(self._context))
 
     def _residual(self, u: Float64) -> Float64:
         self._set(u)
@@ -244,9 +244,8 @@ def _roll(
             of_system = kinematics.GetMyContextFromRoot(context)
             wheel = kinematics.GetOutputPort(f"wheel_{name}").Eval(of_system)
             tire = landing.tires[name]
-            contact = tire.GetOutputPort("contact")
-            deflection = contact.Eval(tire.GetMyContextFromRoot(context))[0]
-            radius = tire.rolling_radius(max(float(deflection), 0.0))
+            deflection = float(tire.contact(context).deflection)
+            radius = tire.rolling_radius(max(deflection, 0.0))
             # Along the wheel is axle × up; rolling forward turns it negatively.
             a_x, a_y = wheel[3:5]
             along = (a_y * wheel[6] - a_x * wheel[7]) / np.hypot(a_x, a_y)

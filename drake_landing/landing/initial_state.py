@@ -92,7 +92,4 @@ def _require_above_runway(landing: LandingDiagram, context: Context) -> None:
 
 def tyre_clearances(landing: LandingDiagram, context: Context) -> dict[str, float]:
     """Height of each tyre's lowest point over the runway below it, m."""
-    return {
-        name: tire.clearance(tire.GetMyContextFromRoot(context))
-        for name, tire in landing.tires.items()
-    }
+    return {name: tire.clearance(context) for name, tire in landing.tires.items()}

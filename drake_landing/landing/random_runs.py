@@ -153,12 +153,10 @@ def _set_start(
     set_scenario_state(landing, context, scenario)
     for (gear, name), factor in draw["struts"].items():
         absorber = landing.shock_absorbers[gear]
-        own = absorber.GetMyMutableContextFromRoot(context)
         nominal = getattr(ShockAbsorberTunables(absorber.parameters.tunables), name)
-        absorber.set_tunables(own, **{name: factor * nominal})
+        absorber.set_tunables(context, **{name: factor * nominal})
     factors: dict[str, dict[str, float]] = {}
     for (wheel, name), factor in draw["tires"].items():
         factors.setdefault(wheel, {})[name] = factor
     for wheel, given in factors.items():
-        tire = landing.tires[wheel]
-        tire.set_factors(tire.GetMyMutableContextFromRoot(context), **given)
+        landing.tires[wheel].set_factors(context, **given)

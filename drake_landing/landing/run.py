@@ -366,8 +366,8 @@ def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:
     total = signal("energy_budget.total")[:, 0]
     parts = {
         "airframe": stored(["airframe"]),
-        "shock absorbers": stored([f"shock_absorber_{g.name}" for g in landing.gears]),
-        "tyres": stored([f"tire_{wheel}" for wheel in landing.tires]),
+        "shock absorbers": stored(["shock_absorbers"]),
+        "tyres": stored(["tires"]),
     }
     if landing.pitch_dampers:
         parts["pitch dampers"] = stored(

@@ -58,9 +58,8 @@ def _hardest(landing: LandingDiagram, root: Context) -> tuple[str, str]:
     found = ("", "")
     most = -1.0
     for name, absorber in landing.shock_absorbers.items():
-        own = absorber.GetMyContextFromRoot(root)
-        stroke, rate = absorber.GetInputPort("strut_state").Eval(own)[:2]
-        force = float(absorber.GetOutputPort("force").Eval(own)[0])
+        stroke, rate = absorber.motion(root)
+        force = float(absorber.force(root))
         if abs(force) / max(abs(rate), 1e-12) > most and rate != 0.0:
             most = abs(force) / max(abs(rate), 1e-12)
             words = f"stroke {stroke:.2e} m, rate {rate:.2e} m/s, force {force:.2e} N"

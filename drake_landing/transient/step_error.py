@@ -16,8 +16,9 @@ import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.load_shapes import LoadModel
+from drake_landing.airframe.oscillators import modal_accelerations
 from drake_landing.airframe.pulses import GearPulses
-from drake_landing.airframe.relevance import ModalModel, modal_accelerations
+from drake_landing.airframe.relevance import ModalModel
 from drake_landing.case.schema import Case
 from drake_landing.landing.handover import resample, time_grid
 from drake_landing.transient.response import SCHEMES

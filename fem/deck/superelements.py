@@ -26,6 +26,7 @@ from fem.deck.superelement_ids import (
     renamed,
     shifts_said,
 )
+from fem.deck.superelement_monitors import with_monitors
 from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 
@@ -60,6 +61,7 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
     tables = [dict(deck.cards)]
     given = {0: _points(deck)}
     maps = {0: {}}
+    grid_lists: set[int] = set()
     for number, part in sorted(parts.items()):
         own = {k: v for k, v in part.cards.items() if k not in _OF_REDUCTION}
         frame = _placing(deck, part, number, problems)
@@ -72,14 +74,19 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
             )
         basic = 1 + max(ids_of_kind(own, "frame"), default=0) + maps[number]["frame"]
         basic = max(basic, *(1 + i for t in tables for i in ids_of_kind(t, "frame")), 1)
-        tables.append(renamed(own, maps[number], frame, basic))
+        whole = renamed(own, maps[number], frame, basic)
+        sets = [i for table in (*tables, whole) for i in table["SET1"]["sid"]]
+        start = basic if frame is not None else 0
+        whole, lists = with_monitors(whole, maps[number], start, number, sets)
+        grid_lists |= lists
+        tables.append(whole)
         notices += shifts_said(number, maps[number])
         given[number] = _points(part)
     cards = _stacked(tables, problems)
     if problems:
         return Whole(cards, problems, notices)
     joined = _joined(deck, given, maps, cards, problems)
-    cards = _merged(cards, joined, problems)
+    cards = _merged(cards, joined, problems, grid_lists)
     notices.append(
         f"{len(parts)} superelements ({', '.join(map(str, sorted(parts)))}), joined at "
         f"{len(joined)} points, are solved as one model: exact in statics, in dynamics "
@@ -267,8 +274,13 @@ def _coincident(
             yield ids[a], ids[b]
 
 
-def _merged(cards: Tables, joined: Mapping[int, int], problems: list[str]) -> Tables:
-    """Tables in which joined points are one; those with axes of their own are tied."""
+def _merged(
+    cards: Tables, joined: Mapping[int, int], problems: list[str], lists: set[int]
+) -> Tables:
+    """Tables in which joined points are one; those with axes of their own are tied.
+
+    `lists` are the SET1 that hold points.
+    """
     grid = cards["GRID"]
     frames, xyz = resolve(cards["CORD"], grid)
     at = {int(i): k for k, i in enumerate(grid["id"])}
@@ -288,6 +300,11 @@ def _merged(cards: Tables, joined: Mapping[int, int], problems: list[str]) -> Ta
     merged = {
         name: _with_points(name, table, replaced) for name, table in cards.items()
     }
+    sets = merged["SET1"] = merged["SET1"].copy()
+    sets["ids"] = [
+        tuple(replaced.get(i, i) for i in ids) if number in lists else ids
+        for number, ids in zip(sets["sid"], sets["ids"])
+    ]
     for name in ("GRID", "SPOINT"):
         table = merged[name]
         merged[name] = table[~table["id"].isin(list(replaced))].reset_index(drop=True)

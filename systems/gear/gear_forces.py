@@ -27,8 +27,8 @@ def GearForces_(T):
 
         | port | size | unit | frame and sign |
         |---|---|---|---|
-        | in `tire_<wheel>` | 6 | N m, N | [torque; force] on the wheel, centre, W |
-        | in `strut_<gear>` | 1 | N | along the strut, positive apart |
+        | in `wrench` | 6 k | N m, N | [torque; force] on each wheel, centre, W |
+        | in `strut_force` | s | N | along each strut, positive apart |
         | in `ratio_<gear>` (for lever struts) | 1 | m/rad | stroke over angle |
         | in `pitch_<gear>` (for bogies) | 1 | N m | torque on the beam about its joint;
           the opposite torque acts on the piston |
@@ -69,9 +69,9 @@ def GearForces_(T):
             brakes, pitches = brakes or {}, pitches or {}
             self._nv = plant.num_velocities()
             self._bodies = tuple(wheel.index() for wheel in wheels.values())
-            self._tires = self._inputs("tire", wheels, 6)
+            self._wrench: Any = self.DeclareVectorInputPort("wrench", 6 * len(wheels))
+            self._strut: Any = self.DeclareVectorInputPort("strut_force", len(struts))
             self._joints = (
-                *self._inputs("strut", struts, 1),
                 *self._inputs("brake", brakes, 1),
                 *self._inputs("pitch", pitches, 1),
             )
@@ -87,8 +87,8 @@ def GearForces_(T):
             sliding = [levers.get(name, strut) for name, strut in struts.items()]
             joints: list[Any] = [*sliding, *brakes.values(), *pitches.values()]
             self._rows = [joint.velocity_start() for joint in joints]
-            self._signs = np.ones(len(joints))
-            self._signs[: len(struts)] = -1.0
+            self._strut_rows = self._rows[: len(struts)]
+            self._rows = self._rows[len(struts) :]
             self._zero = np.array([T(0.0)] * self._nv)
             self._declare_outputs()
 
@@ -101,18 +101,19 @@ def GearForces_(T):
                 "spatial_forces",
                 lambda: Value([ExternallyAppliedSpatialForce_[T]()]),
                 weakly(self._calc_spatial_forces),
-                prerequisites_of_calc={port.ticket() for port in self._tires},
+                prerequisites_of_calc={self._wrench.ticket()},
             )
             joint_loads = {
-                port.ticket() for port in (*self._joints, *self._ratios, *self._elastic)
+                port.ticket()
+                for port in (self._strut, *self._joints, *self._ratios, *self._elastic)
             }
             self.DeclareVectorOutputPort(
                 "generalized_force",
                 self._nv,
                 weakly(self._calc_generalized_force),
-                prerequisites_of_calc=joint_loads or {self.nothing_ticket()},
+                prerequisites_of_calc=joint_loads,
             )
-            tires = {port.ticket() for port in (*self._tires, self._jacobian)}
+            tires = {self._wrench.ticket(), self._jacobian.ticket()}
             self.DeclareVectorOutputPort(
                 "all_generalized_force",
                 self._nv,
@@ -125,23 +126,27 @@ def GearForces_(T):
             return tuple(declare(f"{kind}_{name}", size) for name in names)
 
         def _calc_spatial_forces(self, context, output):
-            wrenches = [port.Eval(context) for port in self._tires]
+            wrenches = self._wrench.Eval(context).reshape(-1, 6)
             output.set_value(spatial_forces(self._bodies, wrenches, T))
 
         def _calc_generalized_force(self, context, output):
             output.SetFromVector(self._joint_loads(context))
 
         def _calc_all_generalized_force(self, context, output):
-            wrenches = np.concatenate([port.Eval(context) for port in self._tires])
+            wrenches = self._wrench.Eval(context)
             jacobian = self._jacobian.Eval(context).reshape(len(wrenches), self._nv)
             output.SetFromVector(self._joint_loads(context) + wrenches @ jacobian)
 
         def _joint_loads(self, context):
             out = self._zero.copy()
-            forces = [port.Eval(context)[0] for port in self._joints]
-            for i, port in zip(self._levers, self._ratios):
-                forces[i] = forces[i] * port.Eval(context)[0]
-            out[self._rows] = self._signs * forces
+            force = self._strut.Eval(context)
+            if self._levers:
+                force = force.copy()
+                for i, port in zip(self._levers, self._ratios):
+                    force[i] = force[i] * port.Eval(context)[0]
+            out[self._strut_rows] = -force
+            for row, port in zip(self._rows, self._joints):
+                out[row] = port.Eval(context)[0]
             for port in self._elastic:
                 out += port.Eval(context)
             return out

@@ -39,12 +39,14 @@ def WheelKinematics_(T):
         | port | size | unit | frame and sign |
         |---|---|---|---|
         | in `plant_state` | nq + nv | | positions and velocities of the plant |
-        | out `wheel_<name>` | 12 | m, -, m/s, rad/s | p_WC of the wheel centre, axle
-          direction (y axis of the wheel body), v_WC, ω_WH of the wheel body; all in W |
+        | out `wheels` | 12 k | m, -, m/s, rad/s | of each wheel p_WC of its centre,
+          axle direction (y axis of the wheel body), v_WC, ω_WH of the wheel body; W |
+        | out `wheel_<name>` | 12 | | the same of one |
         | out `wheel_jacobian` | 6 k nv | | [angular; linear] velocity of each wheel
           body at its centre, W, per velocity of the plant, by rows |
-        | out `strut_<name>` | 2 | m, m/s | stroke, rate; positive in compression |
-        | out `strut_axis_<name>` | 3 | | direction of compression, W |
+        | out `struts` | 2 s | m, m/s | stroke, rate of each; positive in compression |
+        | out `strut_<name>` | 2 | | the same of one |
+        | out `strut_axes` | 3 s | | direction of compression of each, W |
         | out `strut_ratio_<name>` | 1 | m/rad | stroke over angle, of lever struts |
         | out `spin_<name>` | 1 | rad/s | rate of the joints in `spins` |
         | out `pitch_<name>` | 2 | rad, rad/s | angle, rate of the joints in `pitches` |
@@ -92,18 +94,13 @@ def WheelKinematics_(T):
                 state,
             )
             motion = {self._motion.ticket()}
-            size = 6 * len(wheels) * plant.num_velocities()
-            self._declare("wheel_jacobian", size, weakly(self._calc_jacobian), motion)
+            k, declare = len(wheels), self._declare
+            declare("wheels", 12 * k, weakly(self._calc_wheels), motion)
+            size = 6 * k * plant.num_velocities()
+            declare("wheel_jacobian", size, weakly(self._calc_jacobian), motion)
             for i, name in enumerate(wheels):
-                self._declare(f"wheel_{name}", 12, self._motion_port(0, i), motion)
-            for name, strut in struts.items():
-                if isinstance(strut, LeverStrut):
-                    self._declare_lever(name, strut, state)
-                    continue
-                rows = self._rows_port(_state_rows(plant, strut))
-                axis = self._motion_port(2, sliding.index(strut))
-                self._declare(f"strut_{name}", 2, rows, state)
-                self._declare(f"strut_axis_{name}", 3, axis, motion)
+                declare(f"wheel_{name}", 12, self._wheel_port(i), motion)
+            self._declare_struts(struts, state, motion)
             for name, joint in (spins or {}).items():
                 port = self._rows_port(_state_rows(plant, joint)[1:])
                 self._declare(f"spin_{name}", 1, port, state)
@@ -119,18 +116,30 @@ def WheelKinematics_(T):
                 name, size, calc, prerequisites_of_calc=tickets
             )
 
-        def _declare_lever(self, name: str, strut: LeverStrut, state: set) -> None:
-            row, rate = _state_rows(self._given[0], strut.joint)
-            geometry, pose = strut.geometry, {self._context.ticket()}
-            stroke = self._lever_port(row, rate, geometry)
-            self._declare(f"strut_{name}", 2, stroke, state)
-            self._declare(f"strut_axis_{name}", 3, self._lever_axis_port(strut), pose)
-            ratio = self._ratio_port(row, geometry)
-            self._declare(f"strut_ratio_{name}", 1, ratio, state)
+        def _declare_struts(self, struts, state: set, motion: set) -> None:
+            self._struts = [
+                (*_state_rows(self._given[0], _joint(strut)), _lever(strut))
+                for strut in struts.values()
+            ]
+            self._slides = all(lever is None for *_, lever in self._struts)
+            self._strut_rows = [row for *rows, _ in self._struts for row in rows]
+            self._lever_ends = [
+                None if lever is None else self._ends(strut)
+                for strut, (*_, lever) in zip(struts.values(), self._struts)
+            ]
+            s = len(struts)
+            poses = motion if self._slides else motion | {self._context.ticket()}
+            self._declare("struts", 2 * s, weakly(self._calc_struts), state)
+            self._declare("strut_axes", 3 * s, weakly(self._calc_axes), poses)
+            for i, (name, (row, _, lever)) in enumerate(zip(struts, self._struts)):
+                self._declare(f"strut_{name}", 2, self._strut_port(i), state)
+                if lever is not None:
+                    ratio = self._ratio_port(row, lever)
+                    self._declare(f"strut_ratio_{name}", 1, ratio, state)
 
-        def _motion_port(self, part: int, i: int):
+        def _wheel_port(self, i: int):
             def calc(self, context, output):
-                output.SetFromVector(self._motion.Eval(context)[part][i])
+                output.SetFromVector(self._motion.Eval(context)[0][i])
 
             return weakly(MethodType(calc, self))
 
@@ -140,14 +149,25 @@ def WheelKinematics_(T):
 
             return weakly(MethodType(calc, self))
 
-        def _lever_port(self, row: int, rate: int, geometry: LeverGeometry):
+        def _strut(self, state, i: int):
+            row, rate, lever = self._struts[i]
+            if lever is None:
+                return state[row], state[rate]
+            return lever.stroke(state[row]), lever.ratio(state[row]) * state[rate]
+
+        def _strut_port(self, i: int):
             def calc(self, context, output):
-                state = self._state.Eval(context).tolist()
-                ratio = geometry.ratio(state[row])
-                stroke = geometry.stroke(state[row])
-                output.SetFromVector([stroke, ratio * state[rate]])
+                output.SetFromVector(self._strut(self._state.Eval(context), i))
 
             return weakly(MethodType(calc, self))
+
+        def _calc_struts(self, context, output):
+            state = self._state.Eval(context)
+            if self._slides:
+                output.SetFromVector(state[self._strut_rows])
+                return
+            each = [self._strut(state, i) for i in range(len(self._struts))]
+            output.SetFromVector([value for strut in each for value in strut])
 
         def _ratio_port(self, row: int, geometry: LeverGeometry):
             def calc(self, context, output):
@@ -156,25 +176,36 @@ def WheelKinematics_(T):
 
             return weakly(MethodType(calc, self))
 
-        def _lever_axis_port(self, strut: LeverStrut):
+        def _ends(self, strut: LeverStrut):
+            """Frames on fitting and arm, and the absorber's ends in them."""
             joint = self._plant.get_joint(strut.joint.index())
             frames = joint.frame_on_parent(), joint.frame_on_child()
             ends = [
                 RigidTransform_[T](np.array([T(x) for x in end]))
                 for end in (strut.p_upper, strut.p_lower)
             ]
+            return list(zip(frames, ends))
 
-            def calc(self, context, output):
-                of_plant = self._context.Eval(context)
-                upper, lower = (
-                    frame.CalcPoseInWorld(of_plant).multiply(end).translation()
-                    for frame, end in zip(frames, ends)
-                )
-                x, y, z = (upper - lower).tolist()
-                length = sqrt(x * x + y * y + z * z)
-                output.SetFromVector([x / length, y / length, z / length])
+        def _lever_axis(self, context, ends):
+            of_plant = self._context.Eval(context)
+            upper, lower = (
+                frame.CalcPoseInWorld(of_plant).multiply(end).translation()
+                for frame, end in ends
+            )
+            x, y, z = (upper - lower).tolist()
+            length = sqrt(x * x + y * y + z * z)
+            return [x / length, y / length, z / length]
 
-            return weakly(MethodType(calc, self))
+        def _calc_axes(self, context, output):
+            sliding = iter(self._motion.Eval(context)[2])
+            axes = [
+                next(sliding) if ends is None else self._lever_axis(context, ends)
+                for ends in self._lever_ends
+            ]
+            output.SetFromVector(np.concatenate(axes))
+
+        def _calc_wheels(self, context, output):
+            output.SetFromVector(np.ravel(self._motion.Eval(context)[0]))
 
         def _calc_motion(self, context, value):
             """Wheels (k, 12), their Jacobian (6 k, nv), axes of struts (s, 3)."""
@@ -223,6 +254,14 @@ def _motion(plant: Any, context: Any, wheels: Any, struts: Any) -> tuple[Any, An
         for joint in struts
     ]
     return rows, np.concatenate(jacobian), axes
+
+
+def _joint(strut: Strut) -> Joint:
+    return strut.joint if isinstance(strut, LeverStrut) else strut
+
+
+def _lever(strut: Strut) -> LeverGeometry | None:
+    return strut.geometry if isinstance(strut, LeverStrut) else None
 
 
 def _state_rows(plant: MultibodyPlant, joint: Joint) -> list[int]:

@@ -13,6 +13,7 @@ import numpy as np
 from pydrake.systems.framework import LeafSystem_
 
 from systems.tools.compiled import compiled_law
+from systems.tools.compiled import law as as_law
 from systems.tools.scalar import Scalar, sqrt
 from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
@@ -20,49 +21,58 @@ from systems.tools.weak_methods import weakly
 
 @for_scalars
 def SideLoad_(T):
-    law = side_load_of_floats if T is float else side_load
+    law = side_loads_of_floats if T is float else side_loads
 
     class Impl(LeafSystem_[T]):
-        """What the tyres press and bend one piston with, for its bearing friction.
+        """What the tyres press and bend pistons with, for their bearing friction.
 
         The inertia of piston and wheels is left out: at touchdown it takes a part of
         the load of spin-up, so the friction is somewhat too high rather than too low.
 
         | port | size | unit | frame and sign |
         |---|---|---|---|
-        | in `strut_axis` | 3 | | unit vector along the strut, upward, W |
-        | in `wheel_<name>` for each wheel | 12 | | of WheelKinematics: its axle, W |
-        | in `tire_<name>` for each wheel | 6 | N m, N | [torque; force] on it, W |
+        | in `strut_axes` | 3 s | | unit vector along each strut, upward, W |
+        | in `wheels` | 12 k | | of WheelKinematics: axles, W |
+        | in `wrench` | 6 k | N m, N | [torque; force] on each wheel, W; of Tire |
         | in `brake_<name>` for each braked wheel | 1 | N m | on the wheel, of Brake |
-        | out `side_load` | 3 | N, N m | force across the strut at the axle, >= 0; |
-        |  |  |  | moment that bends with it > 0, as by a longer arm; moment across |
+        | out `side_load` | 3 s | N, N m | of each strut: force across it at the axle, |
+        |  |  |  | >= 0; moment that bends with it > 0, as by a longer arm; moment |
+        |  |  |  | across |
 
         Args:
-            wheels: name of each wheel on the strut -> its place along the axle from
-                the strut axis, m, in the direction of the axle.
+            struts: for each strut, name of each wheel on it -> its place along the axle
+                from the strut axis, m, in the direction of the axle. The wheels of the
+                ports are all of these in this order.
             brakes: names of those that have a brake.
         """
 
         def _construct(
-            self, wheels: dict[str, float], brakes: Sequence[str] = (), converter=None
+            self,
+            struts: Sequence[dict[str, float]],
+            brakes: Sequence[str] = (),
+            converter=None,
         ):
             LeafSystem_[T].__init__(self, converter=converter)
-            self._given = dict(wheels), tuple(brakes)
+            self._given = tuple(struts), tuple(brakes)
             declare: Any = self.DeclareVectorInputPort
-            self._offsets = np.array(list(wheels.values()), dtype=float)
-            self._axis = declare("strut_axis", 3)
-            self._wheels = [declare(f"wheel_{name}", 12) for name in wheels]
-            self._tires = [declare(f"tire_{name}", 6) for name in wheels]
+            names = [name for wheels in struts for name in wheels]
+            places = [place for wheels in struts for place in wheels.values()]
+            self._offsets = np.array(places, dtype=float)
+            ends = np.cumsum([len(wheels) for wheels in struts])
+            self._first = np.array([0, *ends], dtype=np.int64)
+            self._axes = declare("strut_axes", 3 * len(struts))
+            self._wheels = declare("wheels", 12 * len(names))
+            self._wrench = declare("wrench", 6 * len(names))
             self._brakes = {
                 i: declare(f"brake_{name}", 1)
-                for i, name in enumerate(wheels)
+                for i, name in enumerate(names)
                 if name in brakes
             }
-            self._free = np.array([T(0.0)] * len(wheels))
-            ports = (self._axis, *self._wheels, *self._tires, *self._brakes.values())
+            self._free = np.array([T(0.0)] * len(names))
+            ports = (self._axes, self._wheels, self._wrench, *self._brakes.values())
             self.DeclareVectorOutputPort(
                 "side_load",
-                3,
+                3 * len(struts),
                 weakly(self._calc_side_load),
                 prerequisites_of_calc={port.ticket() for port in ports},
             )
@@ -77,17 +87,19 @@ def SideLoad_(T):
                 for i, port in self._brakes.items():
                     torque[i] = port.Eval(context)[0]
             load = law(
-                self._axis.Eval(context),
-                tuple([port.Eval(context) for port in self._wheels]),
-                tuple([port.Eval(context) for port in self._tires]),
+                self._axes.Eval(context),
+                self._wheels.Eval(context),
+                self._wrench.Eval(context),
                 self._offsets,
                 torque,
+                self._first,
             )
             output.SetFromVector(load)
 
     return Impl
 
 
+@as_law
 def side_load(
     axis: Any, wheels: Any, wrenches: Any, offsets: Any, brakes: Any
 ) -> tuple[Scalar, Scalar, Scalar]:
@@ -95,8 +107,8 @@ def side_load(
 
     Args:
         axis: (3) of the strut, up.
-        wheels: (12) of each, of `WheelKinematics`.
-        wrenches: (6) of each, torque at the wheel's centre, N m, and force, N.
+        wheels: (k, 12) of each, of `WheelKinematics`.
+        wrenches: (k, 6) of each, torque at the wheel's centre, N m, and force, N.
         offsets: of each centre along the axle, m.
         brakes: torque on each wheel, N m.
     """
@@ -127,7 +139,25 @@ def side_load(
     return force, bending, sqrt(rest) if rest > 0.0 else zero
 
 
-side_load_of_floats = compiled_law(side_load)
-"""The same, compiled: wheels and wrenches as tuples of arrays."""
+def side_loads(
+    axes: Any, wheels: Any, wrenches: Any, offsets: Any, brakes: Any, first: Any
+) -> Any:
+    """(3 s,) `side_load` of each strut; `first`: of each its first wheel, and the end.
+
+    The others are those of `side_load` for all struts and wheels, as vectors.
+    """
+    out = np.full(len(axes), 0.0 * axes[0])
+    motion, loads = wheels.reshape(-1, 12), wrenches.reshape(-1, 6)
+    for i in range(len(first) - 1):
+        a, b = first[i], first[i + 1]
+        found = side_load(
+            axes[3 * i : 3 * i + 3], motion[a:b], loads[a:b], offsets[a:b], brakes[a:b]
+        )
+        out[3 * i], out[3 * i + 1], out[3 * i + 2] = found
+    return out
+
+
+side_loads_of_floats = compiled_law(side_loads)
+"""The same, compiled."""
 
 SideLoad = default_instantiation(SideLoad_)

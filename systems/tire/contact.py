@@ -7,6 +7,8 @@ are those of `tire_law`.
 
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from systems.tire.slip import SlipCurve, reference_speed, secant, slope
 from systems.tools.compiled import compiled_law, law
 from systems.tools.scalar import Scalar, sqrt
@@ -187,6 +189,7 @@ def _airborne(
     return (z, z, z, z, z, z, deflection, z, z, z, z, z, z, z, rate_t, rate_l)
 
 
+@law
 def contact(
     wheel: Any,
     r: Scalar,
@@ -322,5 +325,55 @@ def contact(
     )
 
 
-contact_of_floats = compiled_law(contact)
+def contacts(
+    wheels: Any,
+    grounds: Any,
+    slips: Any,
+    factors: Any,
+    c: Constants,
+    elastic: Table,
+    damping: Table,
+    rolling: Table | None,
+    curve: SlipCurve,
+    scale: Table | None,
+    lag_along: Table,
+    lag_across: Table,
+    trail: Table | None,
+    trail_share: Table,
+) -> Any:
+    """(n, 16) of `contact` of several tyres of one kind.
+
+    Args:
+        wheels, slips, factors: (n, 12), (n, 2) or None, (n, 3), see `contact`.
+        grounds: (n, 4) distance and surface normal of each.
+        c, elastic to trail_share: `Constants` and `Tables`, of all.
+    """
+    out = np.empty((len(wheels), 16))
+    for i in range(len(wheels)):
+        slip = None if slips is None else slips[i]
+        found = contact(
+            wheels[i],
+            grounds[i, 0],
+            grounds[i, 1],
+            grounds[i, 2],
+            grounds[i, 3],
+            slip,
+            factors[i],
+            c,
+            elastic,
+            damping,
+            rolling,
+            curve,
+            scale,
+            lag_along,
+            lag_across,
+            trail,
+            trail_share,
+        )
+        for j in range(16):
+            out[i, j] = found[j]
+    return out
+
+
+contacts_of_floats = compiled_law(contacts)
 """The same, compiled: without the Magic Formula, tables by their rows."""

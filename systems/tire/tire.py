@@ -1,7 +1,9 @@
-"""A tyre on a runway, as a Drake system; the law is in `tire_law`."""
+"""Tyres on a runway, as a Drake system; the law is in `tire_law`."""
 
 import math
+from collections.abc import Sequence
 
+import numpy as np
 from pydrake.common.containers import namedview
 from pydrake.common.value import Value
 from pydrake.math import atan2
@@ -21,26 +23,39 @@ from systems.tools.weak_methods import weakly
 TireContact = namedview(
     "TireContact", ["deflection", "F_z", "F_x", "F_y", "slip", "slip_angle"]
 )
-"""The elements of the port `contact`."""
+"""The elements of the port `contact`, of one tyre."""
 
 TireTunables = namedview("TireTunables", ["stiffness", "damping", "friction"])
-"""The numeric parameters: factors on the law's stiffness, damping and friction."""
+"""The numeric parameters of one tyre: factors on stiffness, damping and friction."""
 
 
 @for_scalars
 def Tire_(T):
+    def _contact(*values):
+        """`TireContact` of the law's values."""
+        deflection, fz, ft, fl, slip, slide, travel = values[6:13]
+        angle = 0.0 * deflection
+        if deflection > 0.0 and (slide != 0.0 or travel != 0.0):
+            angle = (math.atan2 if T is float else atan2)(slide, abs(travel))
+        # Forward is -t; the curve's slip is along t.
+        return deflection, fz, ft, fl, -slip, angle
+
     class Impl(LeafSystem_[T]):
-        """A tyre: `Tire(parameters, runway)`; the runway is flat and dry by default.
+        """One tyre, `Tire(parameters, runway)`, or n in one: `Tire([first, ...])`.
+
+        The runway is flat and dry by default. What passes a port is of one tyre after
+        the other; a landing has all its tyres in one system, which takes a fraction of
+        the time of as many systems.
 
         | port | size | unit | frame and sign |
         |---|---|---|---|
-        | in `wheel` | 12 | m, -, m/s, rad/s | p_WC, axle direction (unit vector, to |
+        | in `wheel` | 12 n | m, -, m/s, rad/s | p_WC, axle direction (unit vector, to |
         |  |  |  | starboard at rest), v_WC, ω_WH; world frame |
-        | out `wrench` | 6 | N m, N | [torque; force] of the ground on the wheel at |
+        | out `wrench` | 6 n | N m, N | [torque; force] of the ground on the wheel at |
         |  |  |  | its centre; world frame |
-        | out `contact` | 6 | m, N, -, rad | `TireContact` |
-        | out `energy` | 1 | J | stored in the radial deflection |
-        | out `dissipated_power` | 1 | W | damping and sliding |
+        | out `contact` | 6 n | m, N, -, rad | `TireContact` |
+        | out `energy` | 1 | J | stored in the radial deflection of all |
+        | out `dissipated_power` | 1 | W | damping and sliding of all |
 
         `contact`: deflection (negative: clearance); F_z along the surface normal; F_x
         along axle × normal, aft at rest: positive as drag of an aircraft rolling
@@ -50,8 +65,9 @@ def Tire_(T):
         zero.
 
         States: none; with a relaxation length, given or from the carcass, the lagged
-        slips along and across.
-        Numeric parameters: `TireTunables`, factors on the law, 1 each; `set_factors`.
+        slips along and across of each such tyre.
+        Numeric parameters: one vector with the `TireTunables` of each, factors on the
+        law, 1; `set_factors`.
 
         Energy: wrench power on the wheel + d(energy)/dt + dissipated_power = 0. The
         dissipated power is never negative without a relaxation length and without a
@@ -61,28 +77,33 @@ def Tire_(T):
 
         def _construct(
             self,
-            parameters: TireParameters,
+            parameters: TireParameters | Sequence[TireParameters],
             runway: Runway | None = None,
             converter=None,
         ):
             LeafSystem_[T].__init__(self, converter=converter)
-            self._parameters = parameters
+            single = isinstance(parameters, TireParameters)
+            self._parameters = (parameters,) if single else tuple(parameters)
             self._runway = Runway() if runway is None else runway
-            self._law = TireLaw(parameters, self._runway)
-            self._lagged = parameters.lagged
+            self._n = n = len(self._parameters)
+            self._kinds = _kinds(self._parameters, self._runway)
+            law_of = {i: law for law, members, _ in self._kinds for i in members}
+            self._laws = [law_of[i] for i in range(n)]
+            self._lagged = [i for i, p in enumerate(self._parameters) if p.lagged]
             self._tunables = NumericParameterIndex(
-                self.DeclareNumericParameter(BasicVector_[T]([1.0, 1.0, 1.0]))
+                self.DeclareNumericParameter(BasicVector_[T]([1.0] * (3 * n)))
             )
-            self._wheel = self.DeclareVectorInputPort("wheel", 12)
+            self._wheel = self.DeclareVectorInputPort("wheel", 12 * n)
             geometry = {
                 self._wheel.ticket(),
                 self.numeric_parameter_ticket(self._tunables),
             }
             everything = set(geometry)
             if self._lagged:
-                self.DeclareContinuousState(BasicVector_[T]([0.0, 0.0]))
+                slips = BasicVector_[T]([0.0] * (2 * len(self._lagged)))
+                self.DeclareContinuousState(slips)
                 everything.add(self.xc_ticket())
-            # The law is evaluated once for wrench, contact, power and lagged slips.
+            # The laws are evaluated once for wrench, contact, power and lagged slips.
             self._contact = self.DeclareCacheEntry(
                 "law",
                 ValueProducer(
@@ -92,8 +113,8 @@ def Tire_(T):
             )
             law = {self._contact.ticket()}
             for name, size, calc, tickets in (
-                ("wrench", 6, weakly(self._calc_wrench), law),
-                ("contact", 6, weakly(self._calc_contact), law),
+                ("wrench", 6 * n, weakly(self._calc_wrench), law),
+                ("contact", 6 * n, weakly(self._calc_contact), law),
                 ("energy", 1, weakly(self._calc_energy), geometry),
                 ("dissipated_power", 1, weakly(self._calc_dissipated_power), law),
             ):
@@ -104,80 +125,110 @@ def Tire_(T):
         def _construct_copy(self, other, converter=None):
             Impl._construct(self, other._parameters, other._runway, converter=converter)
 
-        def rolling_radius(self, deflection):
-            """Speed over spin of a wheel that rolls freely, m, at a deflection, m."""
-            return self._law.rolling_radius(deflection)
-
         @property
-        def parameters(self) -> TireParameters:
+        def parameters(self) -> tuple[TireParameters, ...]:
+            """Of each tyre."""
             return self._parameters
 
+        def rolling_radius(self, deflection, which: int = 0):
+            """Speed over spin of a wheel that rolls freely, m, at a deflection, m."""
+            return self._laws[which].rolling_radius(deflection)
+
         def set_factors(
-            self, context, *, stiffness=1.0, damping=1.0, friction=1.0
+            self,
+            context,
+            *,
+            which: int = 0,
+            stiffness=1.0,
+            damping=1.0,
+            friction=1.0,
         ) -> None:
-            """Sets the factors on the law in a context of this system."""
+            """Sets the factors on the law of one tyre in a context of this system."""
             factors = [stiffness, damping, friction]
             for name, value in zip(TireTunables.get_fields(), factors):
                 require(self.get_name() or "tire", name, value, "", at_least=0.0)
-            parameter = context.get_mutable_numeric_parameter(self._tunables)
-            parameter.SetFromVector(factors)
+            vector = context.get_mutable_numeric_parameter(self._tunables)
+            for i, factor in enumerate(factors):
+                vector.SetAtIndex(3 * which + i, factor)
 
-        def clearance(self, context):
-            """Height of the tyre's lowest point over the runway below it, m.
+        def clearance(self, context, which: int = 0):
+            """Height of a tyre's lowest point over the runway below it, m.
 
             Only that point: on a profile its clearance is vertical, not the nearest
             distance. The context is one of this system, `wheel` connected or fixed.
             """
-            x, y, z, _, _, a_z = self._wheel.Eval(context).tolist()[:6]
-            reach = self._parameters.radius * (1.0 - a_z * a_z) ** 0.5
+            x, y, z, _, _, a_z = self._wheels(context)[which, :6].tolist()
+            reach = self._parameters[which].radius * (1.0 - a_z * a_z) ** 0.5
             return z - reach - self._runway.height(x, y)
 
+        def _wheels(self, context):
+            return self._wheel.Eval(context).reshape(self._n, 12)
+
         def _factors(self, context):
-            return context.get_numeric_parameter(self._tunables).CopyToVector().tolist()
+            parameter = context.get_numeric_parameter(self._tunables)
+            return parameter.CopyToVector().reshape(self._n, 3)
 
         def _calc_law(self, context, value):
-            """The law's tuple of values, see TireLaw.contact."""
-            slip_state = None
+            """(n, 16) see TireLaw.contact."""
+            wheels, factors = self._wheels(context), self._factors(context)
+            slips = None
             if self._lagged:
-                state = context.get_continuous_state_vector()
-                slip_state = state.CopyToVector()
-            wheel = self._wheel.Eval(context)
-            factors = context.get_numeric_parameter(self._tunables).CopyToVector()
-            if T is float:
-                contact = self._law.contact_of_floats(wheel, slip_state, factors)
-            else:
-                slip = None if slip_state is None else slip_state.tolist()
-                contact = self._law.contact(wheel.tolist(), slip, factors.tolist())
-            value.set_value(contact)
+                state = context.get_continuous_state_vector().CopyToVector()
+                slips = state.reshape(-1, 2)
+            if len(self._kinds) == 1:
+                value.set_value(self._kinds[0][0].contacts(wheels, slips, factors))
+                return
+            found = np.empty((self._n, 16), dtype=wheels.dtype)
+            for law, rows, states in self._kinds:
+                lagged = None if states is None or slips is None else slips[states]
+                found[rows] = law.contacts(wheels[rows], lagged, factors[rows])
+            value.set_value(found)
 
         def _calc_wrench(self, context, output):
-            output.SetFromVector(self._contact.Eval(context)[:6])
+            output.SetFromVector(self._contact.Eval(context)[:, :6].ravel())
 
         def _calc_contact(self, context, output):
-            values = self._contact.Eval(context)
-            deflection, fz, ft, fl, slip, slide, travel = values[6:13]
-            angle = 0.0 * deflection
-            if deflection > 0.0 and (slide != 0.0 or travel != 0.0):
-                angle = (math.atan2 if T is float else atan2)(slide, abs(travel))
-            # Forward is -t; the curve's slip is along t.
-            output.SetFromVector([deflection, fz, ft, fl, -slip, angle])
+            rows = [_contact(*row) for row in self._contact.Eval(context).tolist()]
+            output.SetFromVector([value for row in rows for value in row])
 
         def _calc_energy(self, context, output):
-            deflection = self._law.deflection(self._wheel.Eval(context).tolist())
-            output.SetAtIndex(
-                0, self._law.energy(deflection, self._factors(context)[0])
-            )
+            total = T(0.0)
+            for law, wheel, factors in zip(
+                self._laws, self._wheels(context), self._factors(context)
+            ):
+                deflection = law.deflection(wheel.tolist())
+                total = total + law.energy(deflection, factors[0])
+            output.SetAtIndex(0, total)
 
         def _calc_dissipated_power(self, context, output):
-            output.SetAtIndex(0, self._contact.Eval(context)[13])
+            output.SetAtIndex(0, self._contact.Eval(context)[:, 13].sum())
 
         def DoCalcTimeDerivatives(self, context, derivatives):
             if self._lagged:
-                derivatives.get_mutable_vector().SetFromVector(
-                    self._contact.Eval(context)[14:16]
-                )
+                rates = self._contact.Eval(context)[self._lagged, 14:16]
+                derivatives.get_mutable_vector().SetFromVector(rates.ravel())
 
     return Impl
+
+
+def _kinds(parameters: Sequence[TireParameters], runway: Runway) -> list[tuple]:
+    """Law, tyres and rows of lagged slips (None without) of each kind of tyre."""
+    members: list[list[int]] = []
+    for i, p in enumerate(parameters):
+        alike = [m for m in members if parameters[m[0]] == p]
+        if alike:
+            alike[0].append(i)
+        else:
+            members.append([i])
+    lagged = [i for i, p in enumerate(parameters) if p.lagged]
+    return [
+        (
+            TireLaw(parameters[m[0]], runway),
+            m,
+            [lagged.index(i) for i in m] if parameters[m[0]].lagged else None,
+        )
+        for m in members
+    ]
 
 
 Tire = default_instantiation(Tire_)

@@ -34,7 +34,7 @@ from systems.tire.contact import (
     Constants,
     Tables,
     contact,
-    contact_of_floats,
+    contacts_of_floats,
     elastic_force,
     friction,
     rolling_radius,
@@ -418,14 +418,20 @@ class TireLaw:
             wheel, *ground, slip_state, factors, self._constants, *tables[0], tables[1]
         )
 
-    def contact_of_floats(
-        self, wheel: Float64, slip_state: Float64 | None, factors: Float64
-    ) -> tuple[float, ...]:
-        """The same of arrays, compiled."""
-        if self._p.magic_formula is not None:
-            slip = None if slip_state is None else slip_state.tolist()
-            return self.contact(wheel.tolist(), slip, factors.tolist())
-        ground = self._runway.nearest(*wheel[:6].tolist())
-        return contact_of_floats(
-            wheel, *ground, slip_state, factors, self._constants, *self._rows
+    def contacts(
+        self, wheels: npt.NDArray, slips: npt.NDArray | None, factors: npt.NDArray
+    ) -> npt.NDArray:
+        """(n, 16) of `contact`, of several wheels with this tyre.
+
+        Args:
+            wheels, slips, factors: (n, 12), (n, 2) or None, (n, 3); of floats, which
+                are compiled, or AutoDiffXd.
+        """
+        listed = [None] * len(wheels) if slips is None else slips.tolist()
+        if wheels.dtype == object or self._p.magic_formula is not None:
+            each = zip(wheels.tolist(), listed, factors.tolist())
+            return np.array([self.contact(*given) for given in each])
+        grounds = [self._runway.nearest(*wheel) for wheel in wheels[:, :6].tolist()]
+        return contacts_of_floats(
+            wheels, np.array(grounds), slips, factors, self._constants, *self._rows
         )

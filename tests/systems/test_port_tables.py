@@ -61,13 +61,16 @@ SIZES = {
     **{f"{factor} {k}": 2 * factor for factor in (6, 12) for k in ("k", "k_a", "k_m")},
     **{f"(6 {k})²": 144 for k in ("k", "k_a")},
     "c": 3,
+    "s": 2,
+    **{f"{factor} n": 4 * factor for factor in (2, 3, 4, 6, 12)},
+    **{f"{factor} s": 2 * factor for factor in (2, 3)},
 }
 SYSTEMS = {
-    Tire: lambda: Tire(TireParameters(radius=0.5, stiffness=1e6)),
-    ShockAbsorber: lambda: ShockAbsorber(ABSORBER),
+    Tire: lambda: Tire([TireParameters(radius=0.5, stiffness=1e6)] * 4),
+    ShockAbsorber: lambda: ShockAbsorber([ABSORBER] * 4),
     Brake: lambda: Brake(BrakeParameters(torque=1e3)),
     BogiePitch: lambda: BogiePitch(BogiePitchParameters()),
-    SideLoad: lambda: SideLoad(dict.fromkeys(WHEELS, 0.0), list(WHEELS)),
+    SideLoad: lambda: SideLoad([{wheel: 0.0} for wheel in WHEELS], list(WHEELS)),
     WheelKinematics: lambda: WheelKinematics(PLANT, WHEELS, MIXED, SPINS, SPINS),
     GearForces: lambda: GearForces(
         PLANT, WHEELS, MIXED, SPINS, SPINS, elastic_legs=True

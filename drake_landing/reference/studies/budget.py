@@ -26,7 +26,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.airframe.relevance import ModalModel, modal_accelerations
+from drake_landing.airframe.oscillators import modal_accelerations
+from drake_landing.airframe.relevance import ModalModel
 from drake_landing.landing.handover import AttachmentLoads
 
 Float64 = npt.NDArray[np.float64]

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.airframe.relevance import modal_accelerations
+from drake_landing.airframe.oscillators import modal_accelerations
 from drake_landing.airframe.selection import Candidates
 from drake_landing.case.schema import Selection
 from drake_landing.landing.handover import AttachmentLoads

@@ -11,11 +11,11 @@ from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.basis import Basis, elastic_basis
 from drake_landing.airframe.body import load_airframe
 from drake_landing.airframe.drop import drop_pulse
+from drake_landing.airframe.oscillators import modal_accelerations
 from drake_landing.airframe.pulses import is_symmetric, touchdown_pulses
 from drake_landing.airframe.relevance import (
     ModalModel,
     Relevance,
-    modal_accelerations,
     modal_pulse,
     response,
 )

@@ -62,7 +62,7 @@ def test_static_split_is_that_of_statics():
         )
         moment += np.cross(at, weight)
     for wheel in gears[1].wheel_names:
-        wrench = _eval(landing.tires[wheel], context, "wrench")
+        wrench = landing.tires[wheel].wrench(context)
         at = bodies.wheels[wheel].EvalPoseInWorld(plant).translation()
         force += wrench[3:]
         moment += wrench[:3] + np.cross(at, wrench[3:])

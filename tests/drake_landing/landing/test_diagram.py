@@ -211,8 +211,7 @@ def test_initial_state_sets_the_lowest_tyre_at_the_clearance():
     for R_WB in (np.eye(3), attitude(np.radians(4.0), np.radians(8.0), 0.3)):
         set_initial_state(landing, context, v_WG=[-60, 0, -1], R_WB=R_WB, clearance=0.1)
         deflection = [
-            tire.GetOutputPort("contact").Eval(tire.GetMyContextFromRoot(context))[0]
-            for tire in landing.tires.values()
+            tire.contact(context).deflection for tire in landing.tires.values()
         ]
         # The nearest point of a slope is nearer than the one straight below.
         assert -0.1 <= max(deflection) < -0.09
@@ -247,7 +246,7 @@ def test_bearing_friction_feels_the_side_load():
 
 def test_picture_names_the_systems(small):
     picture = small.graphviz()
-    for name in ("plant", "airframe", "attachment", "tire_nose_left", "gear_forces"):
+    for name in ("plant", "airframe", "attachment", "tires", "gear_forces"):
         assert name in picture
 
 

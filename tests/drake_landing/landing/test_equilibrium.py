@@ -30,9 +30,7 @@ def _loads(landing, context) -> np.ndarray:
     loads = []
     for gear in landing.gears:
         tires = [landing.tires[wheel] for wheel in gear.wheel_names]
-        of_tires = [tire.GetMyContextFromRoot(context) for tire in tires]
-        ports = [tire.GetOutputPort("contact") for tire in tires]
-        loads.append(sum(p.Eval(c)[1] for p, c in zip(ports, of_tires)))
+        loads.append(sum(tire.contact(context).F_z for tire in tires))
     return np.array(loads)
 
 
@@ -66,8 +64,7 @@ def test_rolling_aircraft_rolls_on_without_slip():
     context = landing.diagram.CreateDefaultContext()
     set_static_equilibrium(landing, context, speed=30.0, xy=(5.0, 2.0), heading=0.4)
     for tire in landing.tires.values():
-        of_tire = tire.GetMyContextFromRoot(context)
-        contact = tire.GetOutputPort("contact").Eval(of_tire)
+        contact = tire.contact(context)[:]
         assert_allclose(contact[[2, 3]], 0.0, atol=1.0)
         assert_allclose(contact[4:], 0.0, atol=1e-6)
     airframe = landing.airframe.GetMyContextFromRoot(context)

@@ -27,9 +27,10 @@ def _vary(landing: LandingDiagram, case: int):
 
     def set_parameters(context) -> None:
         for absorber in landing.shock_absorbers.values():
-            own = absorber.GetMyMutableContextFromRoot(context)
             precharge = absorber.parameters.gas.precharge
-            absorber.set_tunables(own, precharge=precharge * (1.0 + 0.001 * (case % 7)))
+            absorber.set_tunables(
+                context, precharge=precharge * (1.0 + 0.001 * (case % 7))
+            )
 
     return set_parameters
 

@@ -47,13 +47,12 @@ def found(landing):
     def output(_, context):
         state = landing.loggers["plant.state"].FindLog(context).data()
         load = landing.loggers["attachment.load_in_airframe_axes"].FindLog(context)
-        strut = landing.shock_absorbers["nose"].GetMyContextFromRoot(context)
-        tire = landing.tires["main_left_left"].GetMyContextFromRoot(context)
+        strut, tire = landing.shock_absorbers["nose"], landing.tires["main_left_left"]
         values.append(
             [
                 -state[landing.plant.num_positions() + 5, 0],
-                strut.get_numeric_parameter(0).GetAtIndex(0),
-                tire.get_numeric_parameter(0).GetAtIndex(2),
+                strut.tunables(context)[0],
+                tire.factors(context)[2],
             ]
         )
         return float(np.abs(load.data()).max())

@@ -80,15 +80,14 @@ def _oracle(body, gears):
         builder.Connect(a.GetOutputPort(out), b.GetInputPort(port))
 
     connect(plant, "state", kinematics, "plant_state")
-    for gear in gears:
-        law = shock_absorber_parameters(gear.shock_absorber)
-        absorber = builder.AddSystem(cast(Any, ShockAbsorber)(law))
-        connect(kinematics, f"strut_{gear.name}", absorber, "strut_state")
-        connect(absorber, "force", forces, f"strut_{gear.name}")
-        for wheel in gear.wheel_names:
-            tire = builder.AddSystem(cast(Any, Tire)(tire_parameters(gear.tyre)))
-            connect(kinematics, f"wheel_{wheel}", tire, "wheel")
-            connect(tire, "wrench", forces, f"tire_{wheel}")
+    laws = [shock_absorber_parameters(gear.shock_absorber) for gear in gears]
+    absorber = builder.AddSystem(cast(Any, ShockAbsorber)(laws))
+    connect(kinematics, "struts", absorber, "strut_state")
+    connect(absorber, "force", forces, "strut_force")
+    laws = [tire_parameters(gear.tyre) for gear in gears for _ in gear.wheel_names]
+    tire = builder.AddSystem(cast(Any, Tire)(laws))
+    connect(kinematics, "wheels", tire, "wheel")
+    connect(tire, "wrench", forces, "wrench")
     connect(forces, "spatial_forces", plant, "applied_spatial_force")
     connect(forces, "generalized_force", plant, "applied_generalized_force")
     return builder.Build(), plant, airframe, welds

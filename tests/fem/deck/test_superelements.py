@@ -9,6 +9,8 @@ import pytest
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.model.points import read_points
+from fem.model.structure import Structure
+from fem.recovery.monitor_points import monitor_points
 from fem.solution.run import run_deck
 
 HEAD = "SOL 101\nCEND\nSPC = 5\nLOAD = 9\nDISP = ALL\nSUPER = ALL\nBEGIN BULK\n"
@@ -138,3 +140,49 @@ def test_masses_on_ids_that_are_in_use_are_refused(tmp_path):
     path.write_text(text + "ENDDATA\n")
     with pytest.raises(InputError, match="expected ids of its own"):
         read_deck(path)
+
+
+def test_monitor_points_of_a_part_speak_of_its_own_grids_and_elements(tmp_path):
+    """Ids 1 to 3 are in use in the residual: the part's are others in the whole."""
+    monitors = (
+        "MONPNT1,ROOT,LOADS\n,123456,ARM,,{at}\nAECOMP,ARM,SET1,40\n"
+        "SET1,40,{grids}\nMONPNT3,CUT,FORCES\n,123456,41,42,,{at},SMAD\n"
+        "SET1,41,{joint}\nSET1,42,{inside}\n"
+    )
+    main, turned = "1.,1.,0.", "1.,0.,0."  # one place, in either frame
+    of_part = {"grids": "2,3", "joint": "1", "inside": "1,2"}
+    one = _monitored(
+        tmp_path, ONE + monitors.format(grids="3,4", joint="2", inside="2,3", at=main)
+    )
+    # In the main bulk data the same names and numbers mean something else.
+    other = "AECOMP,ARM,SET1,40\nSET1,40,2\nSET1,41,1\nSET1,42,1\n"
+    places = "GRID,11,,1.,2.,0.\nGRID,12,,1.,2.,-1.\nSELOC,1,1,2,3,2,11,12\n"
+    for text, at in (
+        (RESIDUAL + other + BEGIN + PART, main),
+        (RESIDUAL + other + places + BEGIN + TURNED, turned),
+    ):
+        found = _monitored(tmp_path, text + monitors.format(**of_part, at=at))
+        assert [name for name, _ in found] == ["ROOT", "CUT"]
+        for (_, theirs), (_, ours) in zip(found, one):
+            np.testing.assert_allclose(theirs, ours, rtol=1e-9, atol=1e-6)
+
+
+def _monitored(tmp_path: Path, text: str) -> list[tuple[str, np.ndarray]]:
+    """Place and grids, or the resultant in basic axes of a bent shape, by name."""
+    path = tmp_path / "model.bdf"
+    path.write_text(HEAD + text + "ENDDATA\n")
+    structure = Structure.from_deck(read_deck(path))
+    points = structure.points
+    x, y, z = points.xyz.T
+    shape = np.array([y * z, x * x - z, y * y, 0.1 * x, x * y, z - x]).T
+    turn = points.rotation.transpose(0, 2, 1)
+    local = np.einsum("gij,gkj->gki", turn, shape.reshape(-1, 2, 3))
+    found = []
+    for point in monitor_points(structure).points:
+        grids = np.sort(points.xyz[point.grids], axis=0)
+        values = np.concatenate([point.point, grids.ravel()])
+        if point.elastic is not None:
+            load = (point.elastic @ local.ravel()).reshape(2, 3)
+            values = (load @ point.rotation.T).ravel()
+        found.append((point.name, values))
+    return found

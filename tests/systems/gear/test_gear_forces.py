@@ -13,10 +13,8 @@ def _forces():
     system = GearForces(plant, wheels, struts, {"right": spins["right"]})
     context = system.CreateDefaultContext()
     inputs = {
-        "tire_left": np.arange(6.0),
-        "tire_right": -np.arange(6.0),
-        "strut_left": [1e4],
-        "strut_right": [2e4],
+        "wrench": np.concatenate([np.arange(6.0), -np.arange(6.0)]),
+        "strut_force": [1e4, 2e4],
         "brake_right": [300.0],
     }
     for name, value in inputs.items():
@@ -65,8 +63,8 @@ def test_feedthrough_of_each_output_is_its_own():
     spatial = system.GetOutputPort("spatial_forces").get_index()
     general = system.GetOutputPort("generalized_force").get_index()
     for name, to_spatial in (
-        ("tire_left", True),
-        ("strut_left", False),
+        ("wrench", True),
+        ("strut_force", False),
         ("brake_right", False),
     ):
         port = system.GetInputPort(name).get_index()

@@ -42,7 +42,10 @@ def test_ports_give_position_axle_and_their_rates():
         assert rate == struts[name].get_translation_rate(context)
         # The piston does not turn in its cylinder: its z axis is the strut's.
         piston = struts[name].child_body().EvalPoseInWorld(context).rotation()
-        assert_allclose(now[f"strut_axis_{name}"], piston.matrix()[:, 2])
+        at = NAMES.index(name)
+        assert_allclose(now["strut_axes"].reshape(-1, 3)[at], piston.matrix()[:, 2])
+        assert_allclose(now["struts"].reshape(-1, 2)[at], now[f"strut_{name}"])
+        assert_allclose(now["wheels"].reshape(-1, 12)[at], now[f"wheel_{name}"])
 
 
 def test_a_stroke_lifts_the_axle_toward_the_fitting():
@@ -54,7 +57,7 @@ def test_a_stroke_lifts_the_axle_toward_the_fitting():
     assert_allclose(out["wheel_left"][:3], [0.1, 0.0, -1.3], atol=1e-15)
     assert_allclose(out["strut_left"], [0.2, 0.0])
     assert_allclose(out["wheel_right"][:3], [0.1, 0.0, -1.5], atol=1e-15)
-    assert_allclose(out["strut_axis_left"], [0.0, 0.0, 1.0], atol=1e-15)
+    assert_allclose(out["strut_axes"][:3], [0.0, 0.0, 1.0], atol=1e-15)
 
 
 def test_contexts_do_not_share_state():

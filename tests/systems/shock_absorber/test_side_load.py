@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from systems.shock_absorber.friction import bearing_reactions
-from systems.shock_absorber.side_load import SideLoad, side_load, side_load_of_floats
+from systems.shock_absorber.side_load import SideLoad, side_loads, side_loads_of_floats
 
 UP, AXLE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
 
@@ -19,12 +19,12 @@ def _at_ground(force, radius):
 
 def _load(wrenches, offsets, brakes=None, axis=UP, axle=AXLE):
     brakes = np.zeros(len(wrenches)) if brakes is None else np.asarray(brakes)
-    wheel = np.concatenate([np.zeros(3), axle, np.zeros(6)])
-    given = axis, (wheel,) * len(wrenches), tuple(wrenches), np.array(offsets), brakes
-    assert_allclose(
-        side_load(*given), side_load_of_floats(*given), rtol=1e-9, atol=1e-7
-    )
-    return side_load(*given)
+    wheels = np.tile(np.concatenate([np.zeros(3), axle, np.zeros(6)]), len(wrenches))
+    first = np.array([0, len(wrenches)])
+    given = axis, wheels, np.ravel(wrenches), np.array(offsets), brakes, first
+    found = side_loads(*given)
+    assert_allclose(found, side_loads_of_floats(*given), rtol=1e-9, atol=1e-7)
+    return found
 
 
 def test_drag_acts_at_the_axle_and_a_side_force_at_the_ground():
@@ -78,15 +78,15 @@ def test_reactions_hold_the_piston(fx, fy, mx, my, fz, mz, rake):
 
 
 def test_system_gathers_wheels_and_brakes():
-    system = SideLoad({"left": -0.4, "right": 0.4}, ["left"])
+    system = SideLoad([{"left": -0.4, "right": 0.4}], ["left"])
     context = system.CreateDefaultContext()
     side = _at_ground([1e4, 2e4, 1e5], 0.5)
     wheel = np.concatenate([np.zeros(3), AXLE, np.zeros(6)])
     values = {
-        "strut_axis": UP,
+        "strut_axes": UP,
         "brake_left": [3e3],
-        **dict.fromkeys(("wheel_left", "wheel_right"), wheel),
-        **dict.fromkeys(("tire_left", "tire_right"), side),
+        "wheels": np.tile(wheel, 2),
+        "wrench": np.tile(side, 2),
     }
     for name, value in values.items():
         system.GetInputPort(name).FixValue(context, value)
