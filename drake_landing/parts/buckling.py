@@ -22,13 +22,16 @@ from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.parts.inventory import Inventory
 from fem.algebra.buckling import Buckling, FreeMotions, buckling_factors
 from fem.algebra.statics import free_motions
-from fem.model.differential import differential_stiffness, differential_work
+from fem.model.differential import (
+    differential_stiffness,
+    differential_work,
+    half_of_the_work,
+)
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
-COARSE = 8  # elements with half of the work: below, no half wave is resolved
 _SHARE = 0.3  # of the largest work: an element belongs to the panel
 
 
@@ -141,14 +144,13 @@ def _panels(
         if near & taken:
             continue
         taken |= near
-        ranked = np.cumsum(np.sort(own)[::-1])
         rows.append(
             {
                 "factor": float(factor[k]),
                 "time": times[int(case[k])],
                 "reason": reasons[int(case[k])],
                 "id": int(ids[own.argmax()]),
-                "elements": int(np.searchsorted(ranked, 0.5 * ranked[-1])) + 1,
+                "elements": int(half_of_the_work(own[None])[0]),
             }
         )
         if len(rows) == count:

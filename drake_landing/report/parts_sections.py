@@ -9,12 +9,13 @@ import pandas as pd
 
 from drake_landing.case.axes import deck_axes
 from drake_landing.parts import tables
-from drake_landing.parts.buckling import COARSE, BuckledPanels, with_margin
+from drake_landing.parts.buckling import BuckledPanels, with_margin
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, png_block, table_block
 from drake_landing.report.section_loads import monitor_points, section_loads
 from drake_landing.results.comparison import shock_response_spectrum
 from drake_landing.transient.practices import HYBRID, RIGID, STATIC, Practices
+from fem.model.differential import COARSE
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult

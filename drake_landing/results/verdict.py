@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drake_landing.airframe.truncation import WANTED
-from drake_landing.parts.buckling import COARSE
 from drake_landing.parts.tables import component_table
 from drake_landing.results.truncation import point_errors
 from drake_landing.results.whole_mass import whole_mass
 from drake_landing.transient.step_error import WARNED
+from fem.model.differential import COARSE
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult

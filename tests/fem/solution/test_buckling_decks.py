@@ -5,10 +5,12 @@ import numpy as np
 import pytest
 
 import fem
+from benchmarks.verification.buckling import plate
 from fem.algebra import buckling
 from fem.errors import InputError
 from fem.files.export import export
 from fem.solution import run_deck
+from fem.solution.options import Quiet
 
 PI = np.pi
 YOUNG, INERTIA = 7e10, 2e-6
@@ -211,3 +213,35 @@ def test_what_has_no_differential_stiffness_is_said(solve):
     said = solve(CASE, shell + spring)[1]
     assert "no differential stiffness of CELAS2" in said
     assert "no follower stiffness" in said
+
+
+@pytest.mark.parametrize(("n", "coarse"), [(4, True), (8, False)])
+def test_a_mesh_that_shows_no_half_wave_is_told(tmp_path, n, coarse):
+    """Shells that do half of the work of a mode, and the notice below eight of them."""
+    bulk = plate("CQUAD4", 1.0, n, (1.0, 0.0, 0.0))
+    bulk.add("EIGRL", 1, 0.0, "", 1)
+    case = "SPC = 1\nSUBCASE 1\n  LOAD = 7\nSUBCASE 2\n  METHOD = 1\n"
+    path = tmp_path / "plate.bdf"
+    path.write_text(bulk.deck(105, case))
+    said: list[str] = []
+
+    class Said(Quiet):
+        def say(self, text):
+            said.append(text)
+
+    out = run_deck(
+        fem.read_deck(path), tmp_path / "plate.h5", fem.Options(console=Said())
+    )
+    with h5py.File(out) as file:
+        (count,) = file["buckling/2/shells_with_half_of_the_work"][:]
+    x = np.pi * (np.arange(n) + 0.5) / n
+    share = np.sort(np.outer(np.cos(x) ** 2, np.sin(x) ** 2).ravel())[::-1]
+    expected = 1 + np.searchsorted(np.cumsum(share), 0.5 * share.sum())
+    assert abs(count - expected) <= 1
+    assert any("fewer than 8 shells" in text for text in said) == coarse
+
+
+def test_columns_of_bars_are_never_told_to_be_coarse(solve):
+    found, said, *_ = solve(CASE, "EIGRL,1,,,3")
+    assert not found["buckling/2/shells_with_half_of_the_work"].any()
+    assert not any("fewer than" in text for text in said)
