@@ -36,6 +36,7 @@ from drake_landing.landing.lift import STANDARD_GRAVITY, aircraft_mass_center
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
 from drake_landing.landing.trial import Trial, try_scenario
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.reference.d150.gears import landing_gears
 from drake_landing.transient.practices import rigid
 from systems.airframe.modal_body import ModalBody
 
@@ -233,7 +234,8 @@ def tables(level: str, below_hz: float) -> dict[str, list[str]]:
     found = {f"loads_{level}": head + list(loads(trials, static))}
     found[f"audit_{level}"] = list(audits(trials))
     if level == "con":
-        found["rigid"] = list(rigid_models(body, gears))
+        # The independent model has the laws of the paper's gears.
+        found["rigid"] = list(rigid_models(body, landing_gears(paper=True)))
     return found
 
 

@@ -240,10 +240,15 @@ CS25: tuple[Paragraph, ...] = (
     Paragraph(
         number="25.511(b)",
         title="several wheels, tires inflated",
-        rule="two thirds of the worst difference of diameters, pressures ±5 %, crown "
-        "0 and 1.5 %, attitude, deflection of the structure",
-        mark="memory",
-        does="dynamic runs: gears.<name>.tyres, runway.crown; no static cases",
+        rule="shares of the wheels of a gear by their arrangement (of bogies by their "
+        "seesaw), two thirds of the worst difference of tire diameters, pressures "
+        "±5 %, crown 0 and 1.5 % with the nose gear on either slope, attitude, "
+        "deflection of the structure; the shift of the load's middle may be neglected "
+        "for the load on the gear",
+        does="dynamic runs with a tire of its own per wheel (gears.<name>.tyres: "
+        "radius, inflation), runway.crown and offset; bogies seesaw. No static cases: "
+        "without the shift no load on gear or airframe changes, only those of axles "
+        "and wheels, which are no parts of the airframe",
     ),
     Paragraph(
         number="25.511(c), (d)",
@@ -270,9 +275,12 @@ CS25: tuple[Paragraph, ...] = (
         number="25.519",
         title="jacking, tie-down",
         rule="gears at the ramp weight: 1.33 of the load at rest, alone and with 0.33 "
-        "of it any way; jack pads of the airframe; tie-down in a wind of 65 kt",
-        does="static cases of gears; jack pads and tie-down are the user's (the "
-        "wind's loads are not known here)",
+        "of it any way; jack pads of the airframe at the jacking weight: the same, and "
+        "with their local structure 2.0 of it, alone and with 0.33; tie-down points, "
+        "where provided, in a horizontal wind of 65 kt from anywhere",
+        does="static cases of gears. Jack pads and tie-down are the user's, as FORCE "
+        "cards: their places are not in the deck, and the wind's loads, at 685 Pa of "
+        "dynamic pressure, need coefficients of the standing aircraft",
         cases=towing25.jacking,
         design=("take_off",),
     ),
