@@ -88,7 +88,7 @@ def _worst(ours: np.ndarray, theirs: np.ndarray, arm: float = 0.0) -> float:
     known = np.isfinite(ours) & np.isfinite(theirs)
     ours, theirs = np.where(known, ours, 0.0), np.where(known, theirs, 0.0)
     peak = np.abs(theirs).max(axis=(0, 1), initial=0.0)
-    halves = (slice(0, 3), slice(3, 6)) if len(peak) == 6 else (slice(None),)
+    halves = [slice(0, 3), slice(3, 6)] if len(peak) == 6 else [slice(None)]
     scale = np.zeros_like(peak)
     for half in halves:
         scale[half] = np.maximum(peak[half], 1e-2 * peak[half].max(initial=0.0))
@@ -108,6 +108,9 @@ def _frequency(ours: np.ndarray, theirs: np.ndarray) -> float:
     """Motions as a rigid body are zero but for rounding."""
     scale = np.maximum(np.abs(theirs), 1e-2 * np.abs(theirs).max(initial=0.0))
     scale = np.where(scale > 0.0, scale, 1.0)
-    still = (np.abs(ours) < _AT_REST) & (np.abs(theirs) < _AT_REST)
+    # A negative eigenvalue is that of a rigid motion, by its size of rounding.
+    noise = -2.0 * min(float(ours.min()), float(theirs.min()), 0.0)
+    rest = max(_AT_REST, noise)
+    still = (np.abs(ours) < rest) & (np.abs(theirs) < rest)
     ratio = np.where(still, 0.0, np.abs(ours - theirs) / scale)
     return float(ratio.max(initial=0.0))

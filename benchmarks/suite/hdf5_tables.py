@@ -34,13 +34,15 @@ def read_nastran_hdf5(path: Path) -> dict[Name, Table]:
 
 def _tables(file: h5py.File) -> dict[Name, Table]:
     result = file["NASTRAN/RESULT"]
-    domains = {row["ID"]: row for row in result["DOMAINS"][()]}
+    if not isinstance(result, h5py.Group):
+        raise KeyError("NASTRAN/RESULT is no group")
+    domains = {row["ID"]: row for row in np.asarray(result["DOMAINS"])}
     found: dict[Name, Table] = {}
     for name, title in _NODAL.items():
         if f"NODAL/{name}" in result:
-            found |= _points(result[f"NODAL/{name}"][()], domains, title)
+            found |= _points(np.asarray(result[f"NODAL/{name}"]), domains, title)
     if "SUMMARY/EIGENVALUE" in result:
-        rows = result["SUMMARY/EIGENVALUE"][()]
+        rows = np.asarray(result["SUMMARY/EIGENVALUE"])
         found |= _eigenvalues(rows, domains)
     return found
 

@@ -70,7 +70,6 @@ SOLUTION_REFUSED = {
     "NONLINEAR": "there are no NOLIN loads",
     "RSDAMP": "there is no damping of residual structures",
     "TSTRU": "temperatures are given by TEMP cards",
-    "SUPER": "superelements are solved as one model; expected SUPER = ALL",
 }
 # Requests, printing and what belongs to other disciplines: no answer of the
 # solutions here depends on them. They are named in a notice.
@@ -95,7 +94,7 @@ _WITHOUT_EFFECT = """
 # Carried out by name.
 _OWN = """
     AUTOSPC OUTPUT PARAM SET SUBCASE SUBCOM SUBSEQ SUBSEQ1 SYM SYMCOM SYMSEQ REPCASE
-    TEMPERATURE STATSUB MEFFMASS
+    TEMPERATURE STATSUB MEFFMASS SUPER
 """.split()
 
 SELECTIONS = (*NUMBERS, "TEMPERATURE", "SUBCASE", "SUBCOM")

@@ -24,6 +24,8 @@ class Subcase:
             the basic frame; -1: they are not asked for.
         statsub: static subcase whose load buckles (STATSUB, STATSUB(BUCKLING)).
         preload: static subcase whose load stays (STATSUB(PRELOAD)).
+        superelements: those that the subcase is for, 0: the residual structure; None:
+            all.
         combination: subcases and factors that SUBCOM or SYMCOM adds up.
         not_carried_out: commands that would change what a solution of the deck's own
             finds and that nothing here carries out, each with its place.
@@ -57,7 +59,7 @@ class Subcase:
     deform: int = 0
     temperature: int = 0
     initial_temperature: int = 0
-    superelement: int = 0
+    superelements: frozenset[int] | None = None
     resvec: str = ""
     k2gg: str = ""
     m2gg: str = ""
@@ -345,11 +347,18 @@ class _Reader:
         self.change(**{name: number(command.value)})
 
     def do_super(self, command: _Command) -> None:
-        """SUPER = ALL and SUPER = 0 mean all there is."""
+        """SUPER = ALL, a superelement, or a set of them; 0 is the residual structure.
+
+        The load sequence number after it follows from the order of the subcases.
+        """
         first = command.value.split(",")[0].strip()
-        if first not in ("", "ALL", "0"):
-            self.not_carried_out(command)
-            self.change(superelement=number(first))
+        if first in ("", "ALL"):
+            self.change(superelements=None)
+            return
+        n = number(first)
+        members = self.sets.sets.get(n, frozenset({n}))
+        alike = members if isinstance(members, frozenset) else None
+        self.change(superelements=alike)
 
     def open(self, command: _Command) -> None:
         """A subcase that begins with what stands above all subcases.

@@ -42,7 +42,10 @@ def ids(tables: Mapping[str, pd.DataFrame], names: Sequence[str], column: str):
 def _drop_repetitions(tables: Tables, name: str, notices: list[str]) -> None:
     """Points and frames may be given twice if both cards say the same."""
     table = tables[name]
-    again = table.drop(columns=["file", "line"]).duplicated(keep="first").to_numpy()
+    compared = table.drop(columns=["file", "line"])
+    if "ps" in compared:  # "0" and blank constrain nothing
+        compared = compared.assign(ps=compared["ps"].replace("0", ""))
+    again = compared.duplicated(keep="first").to_numpy()
     if again.any():
         notices.append(f"{int(again.sum())} repeated {name} cards that are alike")
         tables[name] = table[~again].reset_index(drop=True)

@@ -8,6 +8,7 @@ import pandas as pd
 
 from fem.deck.case_control import Subcase
 from fem.deck.param_names import DEFAULTS, Value
+from fem.deck.superelement_sets import Superelement
 from fem.errors import InputError, nearest
 
 
@@ -28,6 +29,7 @@ class Deck:
         ignored: names of unsupported cards that the user wanted left out, and that
             the deck has.
         superelements: bulk data of BEGIN SUPER=n sections by n.
+        components: superelements that a solution reduces, in their order.
         increments: elements of BEGIN MASSID=n sections by n, on the points of the deck.
     """
 
@@ -40,6 +42,7 @@ class Deck:
     notices: tuple[str, ...] = ()
     ignored: tuple[str, ...] = ()
     superelements: "Mapping[int, Deck]" = field(default_factory=dict)
+    components: tuple[Superelement, ...] = ()
     increments: "Mapping[int, Deck]" = field(default_factory=dict)
 
     def param(self, name: str) -> Value:

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from pyNastran.bdf.bdf_interface.bdf_card import BDFCard
 from pyNastran.bdf.cards.bdf_tables import TABDMP1, TABLED1
 from pyNastran.bdf.cards.elements.rigid import RBE3
@@ -22,7 +23,7 @@ from pyNastran.bdf.cards.properties.bush import PBUSH
 from fem.arrays import Int64
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
-from fem.deck.checks import check, check_selected
+from fem.deck.checks import STATIC_LOADS, check, check_selected
 from fem.deck.cleanup import clean
 from fem.deck.deck import Deck
 from fem.deck.design import set_initial_values
@@ -34,7 +35,13 @@ from fem.deck.param_cards import read_parameters
 from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
-from fem.deck.superelements import in_one_piece
+from fem.deck.superelement_sets import (
+    Superelement,
+    of_main_section,
+    split_subcases,
+    with_chosen_sets,
+)
+from fem.deck.superelements import in_one_piece, with_modal
 from fem.deck.tables import make_tables
 from fem.deck.values import Malformed
 from fem.errors import InputError
@@ -118,18 +125,31 @@ def read_deck(
             if card.name == "TEMPP3" and card.name not in ignore
         ]
     parts = _superelements(path, sections, ignore, problems)
+    subcases = list(case.subcases)
     if parts and not superelements and not problems:
+        for number, part in parts.items():
+            cards, subcases = with_chosen_sets(
+                part.cards, number, subcases, (*STATIC_LOADS, "LOAD")
+            )
+            parts[number] = replace(part, cards=cards)
         deck, whole = in_one_piece(deck, parts)
         parts = {}
         problems += whole.problems
         notices += whole.notices
         if not problems:
             problems += check(deck)
+    components = deck.components
+    if not components and not problems:
+        components = tuple(of_main_section(deck.cards))
+        deck = replace(deck, cards=_with_modal_points(deck.cards, components))
+    deck = replace(deck, case_control=tuple(subcases))
     increments = _increments(deck, sections, ignore, problems, notices)
     if not problems:
         problems += check_combinations(replace(deck, increments=increments))
     if not problems:
-        found = check_selected(deck, executive.sol, parts.values())
+        solved, _ = split_subcases(deck.case_control)
+        chosen = replace(deck, case_control=tuple(solved))
+        found = check_selected(chosen, executive.sol, parts.values())
         problems += found.problems
         notices += found.notices
     if problems:
@@ -140,12 +160,13 @@ def read_deck(
         path=path,
         cards=deck.cards,
         params=deck.params,
-        case_control=case.subcases,
+        case_control=deck.case_control,
         sol=executive.sol,
         executive=executive.statements,
         notices=tuple(dict.fromkeys(notices)),
         ignored=deck.ignored,
         superelements=parts,
+        components=components,
         increments=increments,
     )
 
@@ -268,6 +289,13 @@ def _lines(name: str, cards: Sequence[RawCard]) -> str:
     more = ", ..." if len(cards) > 5 else ""
     plural = "cards" if len(cards) > 1 else "card"
     return f"{name} ({len(cards)} {plural}; {places}{more})"
+
+
+def _with_modal_points(
+    cards: Mapping[str, pd.DataFrame], components: Sequence[Superelement]
+) -> Mapping[str, pd.DataFrame]:
+    """Tables whose QSET has the modal coordinates of SEQSET."""
+    return {**cards, "QSET": with_modal(cards["QSET"], components)}
 
 
 def _superelements(

@@ -2,14 +2,15 @@
 
 The parts are placed (SELOC), their points joined, by SECONCT or where they coincide,
 and solved with the residual structure. In statics that is what their reduction gives;
-in dynamics it is what the reduction approximates.
+for modes and dynamics each part says which of its points are interior, and by which
+coordinates it is reduced (`superelement_sets`).
 
 Points, elements, properties, materials and coordinate systems of a part whose ids are
 in use get an offset. The basic frame of a part that is turned becomes a coordinate
 system, and what refers to the basic frame refers to it: nothing else has to be turned.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -27,6 +28,7 @@ from fem.deck.superelement_ids import (
     shifts_said,
 )
 from fem.deck.superelement_monitors import with_monitors
+from fem.deck.superelement_sets import Superelement
 from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 
@@ -45,6 +47,7 @@ class Whole:
     cards: Mapping[str, pd.DataFrame]
     problems: list[str]
     notices: list[str]
+    components: tuple[Superelement, ...] = ()
 
 
 def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
@@ -87,12 +90,47 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         return Whole(cards, problems, notices)
     joined = _joined(deck, given, maps, cards, problems)
     cards = _merged(cards, joined, problems, grid_lists)
+    found = [_component(n, parts[n], maps[n], joined) for n in sorted(parts)]
+    cards["QSET"] = with_modal(cards["QSET"], found)
     notices.append(
         f"{len(parts)} superelements ({', '.join(map(str, sorted(parts)))}), joined at "
-        f"{len(joined)} points, are solved as one model: exact in statics, in dynamics "
-        "better than their reduction"
+        f"{len(joined)} points: one model in statics, which is exact, and for landings"
     )
-    return Whole(cards, problems, notices)
+    return Whole(cards, problems, notices, tuple(found))
+
+
+def _component(
+    number: int, part: Deck, shift: Mapping[str, int], joined: Mapping[int, int]
+) -> Superelement:
+    """What a part's sets ask of its reduction, by ids of the whole."""
+    add = shift.get("point", 0)
+    shared = {*joined, *joined.values()}
+
+    def ids(name: str) -> list[int]:
+        return (part.cards[name]["id"].to_numpy(np.int64) + add).tolist()
+
+    modal = dict(zip(ids("QSET"), part.cards["QSET"]["c"].astype(str)))
+    interior = sorted({*ids("GRID"), *ids("SPOINT")} - shared - {*modal})
+    kept = zip(ids("ASET"), part.cards["ASET"]["c"].tolist())
+    counts = part.cards["SENQSET"]["n"].tolist()
+    return Superelement(
+        number=number,
+        interior=np.array(interior, np.int64),
+        generalised=tuple((joined.get(i, i), c) for i, c in modal.items()),
+        count=int(sum(counts)),
+        kept=tuple((i, str(c)) for i, c in kept if i in {*interior}),
+        methods=part.cards["EIGRL"],
+    )
+
+
+def with_modal(table: pd.DataFrame, parts: Sequence[Superelement]) -> pd.DataFrame:
+    """QSET with the modal coordinates of all parts."""
+    pairs = [pair for part in parts for pair in part.generalised]
+    if not pairs:
+        return table
+    new = pd.DataFrame(pairs, columns=["id", "c"]).assign(file="", line=0)
+    new = new.reindex(columns=table.columns)
+    return pd.concat([table, new], ignore_index=True)
 
 
 # -- what is asked for ----------------------------------------------------------------
@@ -133,6 +171,17 @@ def _points(deck: Deck) -> set[int]:
     return {*grids, *deck.cards["SPOINT"]["id"].tolist()}
 
 
+def _places(deck: Deck) -> pd.DataFrame:
+    """Grids and POINTs, which serve as places."""
+    columns = ["id", "cp", "x1", "x2", "x3", "cd"]
+    points = deck.cards["POINT"].assign(cd=0)
+    grids = deck.cards["GRID"]
+    if points.empty:
+        return grids
+    both = [grids[columns], points[columns]]
+    return pd.DataFrame(pd.concat(both, ignore_index=True))
+
+
 # -- places ---------------------------------------------------------------------------
 
 
@@ -149,7 +198,7 @@ def _placing(
     found = []
     for own, which in ((part, "pa"), (deck, "pb")):
         ids = [int(row[f"{which}{k}"]) for k in (1, 2, 3)]
-        grid = own.cards["GRID"]
+        grid = _places(own)
         absent = [str(i) for i in ids if i not in set(grid["id"])]
         if absent:
             where = "the superelement" if own is part else "the main bulk data"
@@ -362,4 +411,4 @@ def in_one_piece(deck: Deck, parts: Mapping[int, Deck]) -> tuple[Deck, Whole]:
         whole = join(deck, parts)
     except InputError as error:
         whole = Whole(deck.cards, list(error.problems), [])
-    return replace(deck, cards=whole.cards), whole
+    return replace(deck, cards=whole.cards, components=whole.components), whole

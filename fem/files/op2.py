@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from fem.arrays import Int64
 from fem.deck.case_control import Subcase
+from fem.deck.superelement_sets import split_subcases
 from fem.elements.connectivity import element_grids
 from fem.files.atomic import written_aside
 from fem.files.complex_parts import REAL, as_asked, form_of
@@ -110,7 +111,8 @@ def write_op2(results: Path, structure: Structure, path: Path) -> list[str]:
 
 def _states(solution: Solution, structure: Structure) -> list[State]:
     titles = {case.id: case.title for case in structure.deck.case_control}
-    case = solution.subcase or structure.deck.case_control[0].id
+    solved, _ = split_subcases(structure.deck.case_control)
+    case = solution.subcase or solved[0].id
     modal = solution.analysis == "modes"
     return [
         State(

@@ -17,6 +17,7 @@ from fem.model.structure import Structure
 from fem.model.weight import rigid_modes
 from fem.recovery.grid_forces import strain_energy
 from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.eigrl import request
 from fem.solution.holding import solve_or_hold
 from fem.solution.options import Options
 from fem.solution.requests import check_free, ids_of
@@ -87,26 +88,6 @@ def eigrl(deck: Deck, subcase: Subcase) -> pd.Series:
             f"{subcase.method or 'nothing'}, expected an EIGRL card: {known}"
         )
     return found.iloc[0]
-
-
-def request(card: pd.Series) -> tuple[int | None, tuple[float | None, float | None]]:
-    """Count and band of an EIGRL card.
-
-    Raises:
-        InputError: neither ND nor V2, or limits that do not ascend.
-    """
-    low = None if np.isnan(card["v1"]) else float(card["v1"])
-    high = None if np.isnan(card["v2"]) else float(card["v2"])
-    count = int(card["nd"]) or None
-    where = f"{card['file']}:{card['line']}: EIGRL {card['sid']}"
-    if low is not None and high is not None and not low < high:
-        raise InputError(f"{where}: V1 {low:g} and V2 {high:g} must ascend")
-    if high is not None and high <= 0.0:
-        raise InputError(f"{where}: V2 is {high:g} Hz, expected a positive frequency")
-    if count is None and high is None:
-        # As Nastran: without a limit and a count, the lowest mode is meant.
-        count = 1
-    return count, (low, high)
 
 
 def retained_modes(deck: Deck, modes: Modes) -> Modes:

@@ -12,10 +12,12 @@ from fem.deck.deck import Deck
 from fem.deck.executive import read_executive
 from fem.deck.sections import split_sections
 from fem.deck.source import read_source
+from fem.deck.superelement_sets import split_subcases
 from fem.errors import InputError, by_kind
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
 from fem.solution.buckling import solve_buckling
+from fem.solution.components import component_notices
 from fem.solution.frequency import solve_frequencies
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
@@ -36,6 +38,8 @@ _SOLVERS: dict[int, _Solver] = {
     112: solve_transients,
 }
 _TRANSIENT = frozenset({109, 112})
+# Solutions of superelements as one model.
+_WITHOUT_REDUCTION = frozenset({101, 105})
 # What follows from the results of other subcases, and is not computed here.
 _NOT_RUN = frozenset({"RANDOM"})
 
@@ -69,6 +73,9 @@ def _run(deck: Deck, path: Path, options: Options) -> Path:
     with ResultFile(path) as results:
         _introduce(structure, options)
         _say_what_is_not_run(deck, options)
+        if {number for number, _ in work} - _WITHOUT_REDUCTION:
+            for text in component_notices(structure):
+                options.console.say(f"notice: {text}")
         results.write_model(structure)
         if options.envelope and not _TRANSIENT.intersection(n for n, _ in work):
             options.console.say(
@@ -129,7 +136,7 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
             f"{', '.join(map(str, _SOLVERS))}, or --sol with one of them"
         )
     work: dict[int, list[Subcase]] = {}
-    for subcase in deck.case_control:
+    for subcase in split_subcases(deck.case_control)[0]:
         if subcase.analysis.upper() in _NOT_RUN:
             continue  # said by `_say_what_is_not_run`
         number = ANALYSES.get(subcase.analysis.upper(), deck.sol)
@@ -169,6 +176,13 @@ def _refuse_what_is_not_carried_out(
 
 
 def _say_what_is_not_run(deck: Deck, options: Options) -> None:
+    others = split_subcases(deck.case_control)[1]
+    if others:
+        ids = ", ".join(str(case.id) for case in others)
+        options.console.say(
+            f"notice: subcases {ids} are for superelements: their METHOD and sets are "
+            "used, their results come with the subcases of the residual structure"
+        )
     for subcase in deck.case_control:
         if subcase.analysis.upper() in _NOT_RUN:
             options.console.say(

@@ -241,7 +241,7 @@ def _start(
     """
     if not state.any():
         return None
-    rows = model.analysis_dof if reduced.reduced else model.elimination.f
+    rows = reduced.rows
     given = np.flatnonzero(state.any(axis=0))
     unused = [model.points.label(int(dof)) for dof in np.setdiff1d(given, rows)]
     if unused:

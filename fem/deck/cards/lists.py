@@ -40,6 +40,36 @@ def freedoms(f: Fields) -> Rows:
     return rows + [{"id": part.first, "c": c, "thru": part} for part in ranges]
 
 
+def seset(f: Fields) -> Rows:
+    """Interior points of a superelement."""
+    seid = f.integer(1, "SEID")
+    written, ranges = f.ranges(2, "G1")
+    rows = [{"seid": seid, "id": i, "thru": None} for i in written]
+    return rows + [{"seid": seid, "id": r.first, "thru": r} for r in ranges]
+
+
+def se_set(f: Fields) -> Rows:
+    """SEBSET, SECSET and SEQSET: pairs of point and components."""
+    seid = f.integer(1, "SEID")
+    return [
+        {
+            "seid": seid,
+            "id": f.integer(k, "ID"),
+            "c": f.components(k + 1, "C", "0"),
+            "thru": None,
+        }
+        for k in f.groups(2, 2)
+    ]
+
+
+def se_set1(f: Fields) -> Rows:
+    """SEBSET1, SECSET1 and SEQSET1: points with like components."""
+    row = {"seid": f.integer(1, "SEID"), "c": f.components(2, "C", "0")}
+    written, ranges = f.ranges(3, "ID1")
+    rows = [{**row, "id": i, "thru": None} for i in written]
+    return rows + [{**row, "id": r.first, "thru": r} for r in ranges]
+
+
 def add(f: Fields) -> Rows:
     """SPCADD, MPCADD, NSMADD."""
     written, between = f.ids(2, "S1")

@@ -93,6 +93,27 @@ RECORDS = (
     Card(name="OMIT1", group=_SETS, read=lists.freedoms, table="OMIT"),
     Card(name="QSET", group=_SETS, fields=_FREEDOMS),
     Card(name="QSET1", group=_SETS, read=lists.freedoms, table="QSET"),
+    # Superelements of one section: interior points, boundary, modal coordinates.
+    Card(name="SESET", group=_SETS, read=lists.seset, more="seid:i id:i thru:*"),
+    *(
+        card
+        for letter in "BCQ"
+        for card in (
+            Card(
+                name=f"SE{letter}SET",
+                group=_SETS,
+                read=lists.se_set,
+                more="seid:i id:i c:c thru:*",
+            ),
+            Card(
+                name=f"SE{letter}SET1",
+                group=_SETS,
+                read=lists.se_set1,
+                table=f"SE{letter}SET",
+            ),
+        )
+    ),
+    Card(name="SENQSET", group=_SETS, fields="seid:i n:i=0"),
     # Partitioned superelements: SEBULK in the main section, grids joined by SECONCT.
     Card(
         name="SEBULK",

@@ -18,7 +18,7 @@ RECORDS = (
         name="GRID",
         group=_GROUP,
         # ps: text of digits, '' if none
-        fields="id:i cp:i=0>CORD x1:f=0. x2:f=0. x3:f=0. cd:i=0>CORD ps:c= -",
+        fields="id:i cp:i=0>CORD x1:f=0. x2:f=0. x3:f=0. cd:i=0>CORD ps:c= seid:i=0",
         ids="point",
         convert=conversions.grid,
     ),
@@ -27,6 +27,13 @@ RECORDS = (
         group=_GROUP,
         fields="- cp:i=0 - - - cd:i=0 ps:c= -",
         fills=("GRID", (2, 6, 7)),
+    ),
+    # Places without freedoms: planes of mirrors, seats of superelements.
+    Card(
+        name="POINT",
+        group=_GROUP,
+        fields="id:i cp:i=0>CORD x1:f=0. x2:f=0. x3:f=0.",
+        convert=conversions.grid,
     ),
     Card(name="SPOINT", group=_GROUP, read=lists.spoint, more="id:i", ids="point"),
     # Type R, C or S; form 1 by grids g1 g2 g3, form 2 by points a b c in frame rid.

@@ -150,9 +150,10 @@ def test_set_without_end_holds_the_ids_of_the_deck(read):
 
 
 def test_all_superelements_of_a_deck_without_any(read):
-    assert read(case="SUPER = ALL").case_control[0].superelement == 0
-    (only,) = read(case="SUPER = 3").case_control
-    assert "SUPER is not supported" in only.not_carried_out[0]
+    assert read(case="SUPER = ALL").case_control[0].superelements is None
+    (only,) = read(case="SET 9 = 0, 3\nSUPER = 9, 1").case_control
+    assert only.superelements == {0, 3}
+    assert read(case="SUPER = 3").case_control[0].superelements == {3}
 
 
 def test_commands_that_only_a_solution_needs_wait_for_it(read):

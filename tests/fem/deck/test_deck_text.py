@@ -188,7 +188,7 @@ def test_superelements_are_joined_or_read_one_by_one(tmp_path):
     )
     joined = read_deck(path)
     assert len(joined.cards["GRID"]) == 2
-    assert any("solved as one model" in notice for notice in joined.notices)
+    assert any("one model in statics" in notice for notice in joined.notices)
     deck = read_deck(path, superelements=True)
     assert deck.superelements[1].cards["GRID"]["id"].tolist() == [1, 2]
     assert np.array_equal(deck.cards["SECONCT"]["gidas"][0], [1])
