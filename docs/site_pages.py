@@ -27,11 +27,12 @@ _AT_ROOT = {
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changes.md",
 }
-# The search is a dialog without a name; code scrolls and is reached by the mouse alone;
+# The search is a dialog without a name; code would scroll, by the mouse alone;
 # links in text differ by color alone; comments in code are too pale.
 _PALE = ("comment", "operator", "punctuation", "generic", "variable")
 _STYLE = (
     "<style>.md-typeset :is(p,li,td) a{text-decoration:underline}"
+    ".md-typeset pre>code{white-space:pre-wrap;overflow-wrap:anywhere}"
     "[data-md-color-scheme=default]{"
     + "".join(f"--md-code-hl-{name}-color:#5c5c5c;" for name in _PALE)
     + "}</style></head>"
@@ -39,8 +40,6 @@ _STYLE = (
 _ACCESSIBLE = {
     'data-md-component="search" role="dialog"': 'data-md-component="search" '
     'role="dialog" aria-label="Search"',
-    "<pre><span></span><code>": '<pre><span></span><code tabindex="0">',
-    "<pre><code>": '<pre><code tabindex="0">',
     "</head>": _STYLE,
 }
 _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")

@@ -88,6 +88,7 @@ class _Layout:
     R_BA: Float64
     mass: float
     cg: Float64  # (3,) in A
+    damped: bool
 
     def nearest(self, target: Sequence[float], count: int = 1) -> list[int]:
         """Rows of the grids next to a point in A."""
@@ -171,7 +172,7 @@ def _layout(structure: Structure, stated: Stated) -> _Layout:
         raise InputError(f"{structure.deck.path}: {text}" for text in problems)
     if weight.total <= 0.0:
         raise InputError("the deck has no mass, expected that of an airframe")
-    axes = _guessed_axes(p, stated)
+    axes, b = _guessed_axes(p, stated), structure.damping
     R_BA = rotation_AB(axes).T
     return _Layout(
         axes=axes,
@@ -180,6 +181,7 @@ def _layout(structure: Structure, stated: Stated) -> _Layout:
         R_BA=R_BA,
         mass=float(weight.total),
         cg=np.asarray(weight.center) @ R_BA,
+        damped=bool(b.stiffness_factor or b.mass_factor or b.other is not None),
     )
 
 
@@ -232,6 +234,8 @@ def _lines(
     known = stated.forward and stated.up
     guess = "" if known else " # GUESS by symmetry and fin, else new --forward, --up"
     yield f"  axes: {{ forward: {a.axes.forward}, up: {a.axes.up} }}{guess}"
+    if not a.damped:
+        yield "  damping: { ratio: { 3: 0.01, 30: 0.03 } } # GUESS: the deck has none"
     yield "  select: below 50 Hz # modes of the multibody model"
     yield "  monitoring: # points whose accelerations are compared: name and grid"
     for point, row in _points(a).items():
@@ -283,14 +287,15 @@ def _gears(a: _Layout) -> Iterator[str]:
         yield f"  - name: {name}"
         yield f"    attachment_node: {a.ids[rows[0]]} # {_at(a, rows[0])}"
         yield f"    # other grids nearby: {others}"
-        node = a.p[rows[0]]
-        yield from _gear(a, node, ground, load)
+        yield from _gear(a, a.p[rows[0]], x, ground, load)
 
 
-def _gear(a: _Layout, node: Float64, ground: float, load: float) -> Iterator[str]:
-    """A telescopic twin for a static load (N)."""
+def _gear(
+    a: _Layout, node: Float64, x: float, ground: float, load: float
+) -> Iterator[str]:
+    """A telescopic twin for a static load (N), its axle at x whatever its node."""
     radius = float(np.clip(0.20 * (load / 1e4) ** 0.33, 0.15, 0.6))
-    axle = np.array([node[0], node[1], ground + radius])
+    axle = np.array([x, node[1], ground + radius])
     gap = node[2] - axle[2]
     mass = 0.006 * load  # kg: gears weigh some 4 % of what they carry (from memory)
     fitting, piston, wheel = 0.4 * mass, 0.25 * mass, 0.12 * mass
