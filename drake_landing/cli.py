@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from drake_landing.terminal import show as show_lines
+
 if TYPE_CHECKING:
     from drake_landing.case.schema import Case
     from drake_landing.results.result import ProcessResult
@@ -154,7 +156,7 @@ def conditions(
     folder = claim(folder, f"conditions {loaded.name}")
     with include_reach(include_path or [], trust=trust), reporter() as progress:
         result = run_conditions(loaded, folder, progress)
-    print(summary(result, loaded, folder))
+    show_lines(summary(result, loaded, folder))
 
 
 @app.command()
@@ -189,7 +191,7 @@ def check(
     if is_campaign(case):
         from drake_landing.campaign.command import explain_campaign
 
-        print(explain_campaign(load_campaign(case)))
+        show_lines(explain_campaign(load_campaign(case)))
         return
     checked = _case(case)
     from drake_landing.process.explain import explain
@@ -197,9 +199,9 @@ def check(
 
     with include_reach(include_path or [], trust=trust):
         try:
-            print(explain(checked, _default_folder(checked), thorough=thorough))
+            show_lines(explain(checked, _default_folder(checked), thorough=thorough))
         except StepRefused as refused:
-            print(refused.explanation)
+            show_lines(refused.explanation)
             raise
     if everything:
         print(f"\nall values, defaults included:\n\n{case_text(checked)}", end="")
@@ -470,7 +472,7 @@ def _run(
 
         write_pdf(folder / "report.html", folder / "report.pdf")
         write_readme(result, folder)
-    print(_summary(result, folder))
+    show_lines(_summary(result, folder))
 
 
 def _summary(result: "ProcessResult", folder: Path) -> str:

@@ -20,6 +20,7 @@ from drake_landing.campaign.task import case_file
 from drake_landing.files import write_csv
 from drake_landing.process.run import run_case
 from drake_landing.progress import reporter, told_when_interrupted
+from drake_landing.terminal import show
 from fem.errors import InputError
 from fem.files.folders import claim
 
@@ -49,7 +50,7 @@ def campaign_command(
     ):
         result = run_campaign(campaign, folder, pool, progress)
         decks = write_critical_decks(result)
-    print(_summary(result, len(decks)))
+    show(_summary(result, len(decks)))
     if compare is not None:
         for name, table in compare_campaigns(compare, folder).items():
             write_csv(folder / f"compared_{name}.csv", table.reset_index())
@@ -71,6 +72,7 @@ def _kept(campaign: Campaign, file: Path, folder: Path, out: Path | None) -> str
     )
 
 
+_FIRST = 3  # cases that are named
 _USUAL = 2.0  # s, of a landing that goes on until it has shown its extremes
 _FLY = 5.0  # s of processor time for a second of landing, some 80 modes
 
@@ -126,11 +128,18 @@ def _summary(result: CampaignResult, decks: int) -> str:
         f"{len(result.flown)} of {len(result.design)} landings done, "
         f"{len(result.sample) + len(result.critical)} confirmed by direct transients"
     ]
-    left = len(result.within_band.index.difference([*result.sample, *result.critical]))
-    if left:
+    done = {*result.sample, *result.critical}
+    open_ = result.within_band[~result.within_band.index.isin(done)]
+    if len(open_):
+        first = ", ".join(
+            f"case {n} ({count} element{'s' * (count > 1)})"
+            for n, count in open_.elements.head(_FIRST).items()
+        )
+        most = result.campaign.confirm.most + len(open_)
         lines.append(
-            f"{left} more landings lie within the screening's error of some element's "
-            "largest stress; confirm.most would have to be raised to confirm them"
+            f"{len(open_)} more landings lie within the screening's error of some "
+            f"element's largest stress: {first}{', ...' * (len(open_) > _FIRST)}; "
+            f"'confirm.most: {most}' confirms them all"
         )
     if not result.errors.empty:
         worst = result.errors["peak"].abs().max()
