@@ -22,6 +22,7 @@ from benchmarks.verification import (
     rigid_motion,
     sections,
     small_systems,
+    thermal,
 )
 from benchmarks.verification.row import Row
 
@@ -122,6 +123,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         drilling_shells.sheet_cantilever,
     ),
     "Joints": (joints.lap_joint,),
+    "Temperatures": (thermal.bimetal_plate,),
     "Linear buckling": (
         buckling.euler_columns,
         buckling.beams_sideways,
