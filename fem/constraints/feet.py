@@ -36,7 +36,7 @@ def read_feet(deck: "Deck", points: Points) -> list[Equations]:
     done = _used(deck) if any(len(table(deck, name)) for name in CONNECTORS) else set()
     for card, (rows_of, kind) in CONNECTORS.items():
         rows = rows_of(deck)
-        if rows.empty:
+        if not (rows[["ga", "gb"]] > 0).any(axis=None):
             continue
         diameter = column(refer(rows, card, "pid", table(deck, kind), kind), "d")
         placed = place_connectors(deck, points, rows, card, diameter)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fem.arrays import Float64, Int64
-from fem.elements.connectors.surfaces import Surfaces, normals, shapes, slopes
+from fem.elements.connectors.surfaces import Surfaces, shapes, slopes
 from fem.elements.lines.line_geometry import skew
 
 _SQUARE = 0.5 * np.sqrt(np.pi)  # side of a square with the area of a disc, per D
@@ -95,12 +95,10 @@ def through_square(
     unit = np.repeat([1.0, 1.0 / size], 3)
     body = np.hstack([np.tile(np.eye(3), (4, 1)), -skew(lever).reshape(12, 3)])
     fit = unit[:, None] * np.linalg.pinv(body * unit)
-    follow = np.zeros((12, 48))
-    for k in range(4):
-        rows, columns = slice(3 * k, 3 * k + 3), slice(12 * k, 12 * k + 12)
-        follow[rows, columns] = np.kron(weight[k], np.eye(3))
+    # Each point follows the four corners of its element.
+    motion = (fit.reshape(6, 4, 1, 3) * weight[:, :, None]).reshape(6, 48)
     dof = 6 * surfaces.at[corners].reshape(-1, 1) + np.arange(3)
-    return _foot(place, normals(surfaces.corners[element]), dof, fit @ follow)
+    return _foot(place, surfaces.normals[element], dof, motion)
 
 
 def _foot(place: Float64, normal: Float64, dof: Int64, motion: Float64) -> Foot:

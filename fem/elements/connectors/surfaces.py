@@ -100,6 +100,11 @@ class Surfaces:
         arms = self.corners - self._centers[:, None]
         return np.linalg.norm(arms, axis=2).max(axis=1)
 
+    @cached_property
+    def normals(self) -> Float64:
+        """(n, 3) of the elements."""
+        return normals(self.corners)
+
     def of_property(self, pid: int) -> Int64:
         """Positions of the elements with a property."""
         return np.flatnonzero(self.pid == pid)
