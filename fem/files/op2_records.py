@@ -121,7 +121,9 @@ def _header(kind: Kind, state: State) -> bytes:
     """146 words before the data."""
     words = np.zeros(50, _WORD)
     words[0] = 10 * state.analysis + DEVICE
-    words[1], words[2], words[3] = kind.code, kind.element, state.subcase
+    # Thousands: the values are complex.
+    words[1] = kind.code + (1000 if kind.parts > 1 else 0)
+    words[2], words[3] = kind.element, state.subcase
     reals = words.view(_REAL)
     if state.analysis in (TRANSIENT, FREQUENCY):
         reals[4] = state.value
