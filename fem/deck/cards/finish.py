@@ -218,12 +218,13 @@ def eigrl(columns: Columns, problems: Problems) -> None:
 
 
 def freq3(columns: Columns, problems: Problems) -> None:
-    """Between frequencies above zero, at least their ends."""
+    """Between frequencies that are not negative, at least their ends."""
     for row, f1 in enumerate(columns["f1"]):
         f2, nef = columns["f2"][row], columns["nef"][row]
         kind, cluster = columns["type"][row], columns["cluster"][row]
         if (
-            not f1 > 0.0
+            not f1 >= 0.0
+            or (f1 == 0.0 and kind == "LOG")
             or f2 < f1
             or nef < 2
             or not cluster > 0.0
@@ -232,7 +233,8 @@ def freq3(columns: Columns, problems: Problems) -> None:
             problems.append(
                 f"{_place(columns, row)}: FREQ3 {columns['sid'][row]}: found F1 {f1}, "
                 f"F2 {f2}, TYPE {kind}, NEF {nef}, CLUSTER {cluster}; expected F2 "
-                "above F1 above 0, LINEAR or LOG, NEF 2 or more, CLUSTER above 0"
+                "above F1, F1 0 (LINEAR) or above, LINEAR or LOG, NEF 2 or more, "
+                "CLUSTER above 0"
             )
 
 
