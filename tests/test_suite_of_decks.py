@@ -3,13 +3,14 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import fem
 from benchmarks.suite.__main__ import summary
 from benchmarks.suite.compare import differences
 from benchmarks.suite.decks import decks, judge
-from benchmarks.suite.tables import read_f06, read_op2
+from benchmarks.suite.tables import listed, read_f06, read_op2
 from fem.files.op2 import write_op2
 from fem.model.structure import Structure
 from fem.solution import run_deck
@@ -105,3 +106,11 @@ def test_complex_forces_are_compared(tmp_path):
     theirs = {k: replace(v, values=1.1j * v.values) for k, v in ours.items()}
     found = {d.name: d.value for d in differences(ours, theirs)}
     assert found["force of CBAR"] == pytest.approx(abs(1 - 1.1j) / 1.1, rel=1e-6)
+
+
+def test_negative_load_factors_are_no_rounding():
+    ours, theirs = (
+        {("load factor", 1): listed(np.array(v))} for v in ([-2.0, -3.0], [-2.0, -4.0])
+    )
+    (found,) = differences(ours, theirs)
+    assert found.value == pytest.approx(0.25)

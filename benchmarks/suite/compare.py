@@ -48,7 +48,7 @@ def differences(
         pair = _common(ours[name], theirs[name])
         if pair is not None and name[1] in cases:
             if name[0] in ROOTS:
-                value = _frequency(*pair)
+                value = _roots(*pair, at_rest=name[0] == "frequency")
             else:
                 value = _worst(*pair, _arm(name[0], length))
             found.append(Difference(name[0], name[1], value, pair[0].shape[1]))
@@ -104,13 +104,13 @@ def _worst(ours: np.ndarray, theirs: np.ndarray, arm: float = 0.0) -> float:
     return float(np.where(away, 0.0, ratio).max(initial=0.0))
 
 
-def _frequency(ours: np.ndarray, theirs: np.ndarray) -> float:
-    """Motions as a rigid body are zero but for rounding."""
+def _roots(ours: np.ndarray, theirs: np.ndarray, *, at_rest: bool) -> float:
+    """Frequencies or load factors; `at_rest`: those of rigid motions are rounding."""
     scale = np.maximum(np.abs(theirs), 1e-2 * np.abs(theirs).max(initial=0.0))
     scale = np.where(scale > 0.0, scale, 1.0)
     # A negative eigenvalue is that of a rigid motion, by its size of rounding.
     noise = -2.0 * min(float(ours.min()), float(theirs.min()), 0.0)
     rest = max(_AT_REST, noise)
-    still = (np.abs(ours) < rest) & (np.abs(theirs) < rest)
+    still = at_rest & (np.abs(ours) < rest) & (np.abs(theirs) < rest)
     ratio = np.where(still, 0.0, np.abs(ours - theirs) / scale)
     return float(ratio.max(initial=0.0))
