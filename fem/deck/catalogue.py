@@ -14,8 +14,8 @@ PASSED_OVER: dict[str, tuple[str, ...]] = {
             "PLOTE PLOTG PLOTOPT FREEPT",
         ),
         (
-            "Superelements of one bulk data section, solved as one model",
-            "SEELT SETREE SELABEL SESUP RELEASE",
+            "Tree, names and further boundary points of superelements",
+            "SEELT SETREE SELABEL SESUP RELEASE CSUPEXT",
         ),
         (
             "Design optimisation",
