@@ -23,7 +23,8 @@ from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
 
 from drake_landing.gears.bodies import AddLandingGear
 from drake_landing.gears.data import LandingGear
-from drake_landing.gears.systems import AddGearSystems, each_of
+from drake_landing.gears.mounted import each_of
+from drake_landing.gears.systems import AddGearSystems
 from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_law import ShockAbsorberTunables
@@ -214,14 +215,21 @@ def drop_rig(
     plant.mutable_gravity_field().set_gravity_vector([0.0, 0.0, 0.0])
     plant.Finalize()
     parts = AddGearSystems(
-        builder, plant, [gear], {gear.name: leg}, runway, connect_plant=False
+        builder,
+        plant,
+        [gear],
+        {gear.name: leg},
+        runway,
+        connect_plant=False,
+        together=True,
     )
     builder.Connect(
         parts.gear_forces.GetOutputPort("all_generalized_force"),
         plant.GetInputPort("applied_generalized_force"),
     )
     budget = AddEnergyBudget(builder, plant, list(parts.by_name.values()))
-    strut, kinematics = parts.shock_absorber, parts.wheel_kinematics
+    strut = parts.shock_absorbers[gear.name].system
+    kinematics = parts.wheel_kinematics
     if controller is not None:
         builder.AddNamedSystem("controller", controller)
         for source, port, target in (
@@ -234,9 +242,8 @@ def drop_rig(
         "force": strut.GetOutputPort("force"),
         "total": budget.GetOutputPort("total"),
     }
-    wheels = list(parts.tires)
-    contacts = each_of(builder, parts.tire, "contact", wheels, "tire contacts")
-    ports |= {f"contact_{wheel}": contacts[wheel] for wheel in wheels}
+    contacts = each_of(builder, parts.tires, "contact")
+    ports |= {f"contact_{wheel}": port for wheel, port in contacts.items()}
     loggers = {n: LogVectorOutput(p, builder) for n, p in ports.items()} if log else {}
     diagram = builder.Build()
     context = diagram.CreateDefaultContext()

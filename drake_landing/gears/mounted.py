@@ -1,11 +1,15 @@
-"""The tyre of one wheel and the shock absorber of one gear, in the systems that hold
-those of all.
+"""The tyre of one wheel and the shock absorber of one gear, whichever system holds it.
+
+A tyre is a Drake system of its own, or one of several in a system that holds them all,
+which takes less time: what speaks of one of them looks the same.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from pydrake.systems.framework import Context
+from pydrake.systems.framework import Context, DiagramBuilder
+from pydrake.systems.primitives import Demultiplexer, Multiplexer
 
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
 from systems.tire.tire import TireContact
@@ -17,8 +21,8 @@ class MountedTire:
     """A tyre; contexts are those of the diagram that holds its system.
 
     Attributes:
-        system: `Tire` of all wheels.
-        which: its place among them.
+        system: `Tire` of this wheel, or of all.
+        which: its place in that system.
     """
 
     system: Any
@@ -68,8 +72,8 @@ class MountedShockAbsorber:
     """A shock absorber; contexts are those of the diagram that holds its system.
 
     Attributes:
-        system: `ShockAbsorber` of all gears.
-        which: its place among them.
+        system: `ShockAbsorber` of this gear, or of all.
+        which: its place in that system.
     """
 
     system: Any
@@ -101,3 +105,51 @@ class MountedShockAbsorber:
 
     def _own(self, root: Context) -> Context:
         return self.system.GetMyContextFromRoot(root)
+
+
+Mounted = Mapping[str, MountedTire] | Mapping[str, MountedShockAbsorber]
+
+
+def systems_of(mounted: Mounted) -> dict[str, Any]:
+    """The systems that hold them, each once, by their names."""
+    return {one.system.get_name(): one.system for one in mounted.values()}
+
+
+def joined(builder: DiagramBuilder, mounted: Mounted, port: str) -> Any:
+    """One output port with that of each, one after the other."""
+    systems = systems_of(mounted)
+    ports = [system.GetOutputPort(port) for system in systems.values()]
+    if len(ports) == 1:
+        return ports[0]
+    join = Multiplexer([each.size() for each in ports])
+    builder.AddNamedSystem(f"{port} of {' '.join(systems)}", join)
+    for i, each in enumerate(ports):
+        builder.Connect(each, join.get_input_port(i))
+    return join.get_output_port(0)
+
+
+def each_of(builder: DiagramBuilder, mounted: Mounted, port: str) -> dict[str, Any]:
+    """An output port by name, cut from a common one where a system holds several."""
+    systems = systems_of(mounted)
+    if len(systems) == len(mounted):
+        return {name: one.system.GetOutputPort(port) for name, one in mounted.items()}
+    ((title, system),) = systems.items()
+    whole = system.GetOutputPort(port)
+    cut = Demultiplexer([whole.size() // len(mounted)] * len(mounted))
+    builder.AddNamedSystem(f"each {port} of {title}", cut)
+    builder.Connect(whole, cut.get_input_port())
+    return {name: cut.get_output_port(i) for i, name in enumerate(mounted)}
+
+
+def feed(builder: DiagramBuilder, source: Any, mounted: Mounted, port: str) -> None:
+    """Connects one output port, with values for one after the other, to all."""
+    systems = systems_of(mounted)
+    ports = [system.GetInputPort(port) for system in systems.values()]
+    if len(ports) == 1:
+        builder.Connect(source, ports[0])
+        return
+    cut = Demultiplexer([each.size() for each in ports])
+    builder.AddNamedSystem(f"{port} for {' '.join(systems)}", cut)
+    builder.Connect(source, cut.get_input_port())
+    for i, each in enumerate(ports):
+        builder.Connect(cut.get_output_port(i), each)

@@ -1,6 +1,6 @@
 """The systems around a plant that make its landing gears work.
 
-plant.state ─▸ wheel_kinematics ─▸ tires, shock_absorbers, brake_*, pitch_damper_*
+plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_*, brake_*, pitch_damper_*
 ─▸ gear_forces ─▸ plant
 plant.state ─▸ elastic_legs ─▸ gear_forces
 """
@@ -11,12 +11,18 @@ from typing import Any, cast
 
 from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import DiagramBuilder
-from pydrake.systems.primitives import Demultiplexer
 
 from drake_landing.gears.bodies import GearBodies
 from drake_landing.gears.data import BogieGear, LandingGear
 from drake_landing.gears.leg_laws import elastic_leg, hinge_columns
-from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire
+from drake_landing.gears.mounted import (
+    MountedShockAbsorber,
+    MountedTire,
+    each_of,
+    feed,
+    joined,
+    systems_of,
+)
 from drake_landing.gears.parameters import (
     bogie_pitch_parameters,
     brake_parameters,
@@ -40,7 +46,7 @@ class GearSystems:
     """What `AddGearSystems` added.
 
     Attributes:
-        wheel_kinematics, gear_forces, tire, shock_absorber: one each.
+        wheel_kinematics, gear_forces: one each.
         tires: by wheel.
         shock_absorbers: by gear.
         brakes: by wheel; of gears that have them.
@@ -50,8 +56,6 @@ class GearSystems:
 
     wheel_kinematics: Any = field(repr=False)
     gear_forces: Any = field(repr=False)
-    tire: Any = field(repr=False)
-    shock_absorber: Any = field(repr=False)
     tires: dict[str, MountedTire] = field(repr=False)
     shock_absorbers: dict[str, MountedShockAbsorber] = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
@@ -62,7 +66,7 @@ class GearSystems:
     def by_name(self) -> dict[str, Any]:
         """All that store or dissipate energy, by the names in the diagram."""
         kinds = {"brake": self.brakes, "pitch_damper": self.pitch_dampers}
-        found = {"tires": self.tire, "shock_absorbers": self.shock_absorber}
+        found = systems_of(self.tires) | systems_of(self.shock_absorbers)
         found |= {f"{k}_{n}": s for k, group in kinds.items() for n, s in group.items()}
         return found | (
             {"elastic_legs": self.elastic_legs} if self.elastic_legs else {}
@@ -77,12 +81,14 @@ def AddGearSystems(
     runway: Runway | None = None,
     brakes: bool = False,
     connect_plant: bool = True,
+    together: bool = False,
 ) -> GearSystems:
     """Adds tyres, shock absorbers and what connects them to a plant.
 
-    They are named `wheel_kinematics`, `gear_forces`, `tires`, `shock_absorbers`, for
-    gears that have them `brake_<wheel>` and `pitch_damper_<gear>`, where bearings rub
-    `side_load`, and for all gears that bend `elastic_legs`. One connection is left to
+    They are named `wheel_kinematics`, `gear_forces`, `tire_<wheel>`,
+    `shock_absorber_<gear>`, for gears that have them `brake_<wheel>` and
+    `pitch_damper_<gear>`, where bearings rub `side_load`, and for all gears that bend
+    `elastic_legs`. One connection is left to
     the caller: the port `spatial_forces` of `gear_forces` belongs to the
     plant's `applied_spatial_force`, alone or joined with other forces.
 
@@ -95,6 +101,9 @@ def AddGearSystems(
         brakes: applied from the start, on gears that have them; by default none are.
         connect_plant: False leaves both inputs of the plant to the caller, who may
             then use the port `all_generalized_force`, which holds the tyres' forces.
+        together: one system `tires` and one `shock_absorbers` in place of one for each
+            wheel and gear: the same laws with fewer calls from Drake into Python, of
+            which a landing makes some ten thousand.
 
     Raises:
         ValueError: a parameter is out of range.
@@ -118,31 +127,36 @@ def AddGearSystems(
             plant, wheels, struts, spins, pitches, elastic_legs=legs is not None
         ),
     )
-    laws = [shock_absorber_parameters(gear.shock_absorber) for gear in gears]
-    tire = builder.AddNamedSystem("tires", cast(Any, Tire)(_tires(gears), runway))
-    absorber = builder.AddNamedSystem("shock_absorbers", cast(Any, ShockAbsorber)(laws))
-    absorbers = [MountedShockAbsorber(absorber, i) for i in range(len(gears))]
+    tires = _add_tires(builder, gears, runway, together)
+    absorbers = _add_shock_absorbers(builder, gears, together)
     systems = GearSystems(
         wheel_kinematics=kinematics,
         gear_forces=forces,
-        tire=tire,
-        shock_absorber=absorber,
-        tires={name: MountedTire(tire, i) for i, name in enumerate(wheels)},
-        shock_absorbers=dict(zip(struts, absorbers)),
+        tires=tires,
+        shock_absorbers=absorbers,
         brakes={},
         pitch_dampers={},
         elastic_legs=legs,
     )
     _connect(builder, plant, "state", kinematics, "plant_state")
-    _connect(builder, kinematics, "wheels", tire, "wheel")
-    _connect(builder, tire, "wrench", forces, "wrench")
-    _connect(builder, kinematics, "struts", absorber, "strut_state")
-    _connect(builder, absorber, "force", forces, "strut_force")
+    if together:
+        feed(builder, kinematics.GetOutputPort("wheels"), tires, "wheel")
+        feed(builder, kinematics.GetOutputPort("struts"), absorbers, "strut_state")
+    else:
+        for name, tire in tires.items():
+            _connect(builder, kinematics, f"wheel_{name}", tire.system, "wheel")
+        for name, one in absorbers.items():
+            _connect(builder, kinematics, f"strut_{name}", one.system, "strut_state")
+    wrenches = joined(builder, tires, "wrench")
+    builder.Connect(wrenches, forces.GetInputPort("wrench"))
+    builder.Connect(
+        joined(builder, absorbers, "force"), forces.GetInputPort("strut_force")
+    )
     if brakes:
         _add_brakes(builder, gears, systems)
     _add_pitch_dampers(builder, gears, systems)
     if any(gear.shock_absorber.bearing_friction > 0 for gear in gears):
-        _add_side_load(builder, gears, systems)
+        _add_side_load(builder, gears, systems, wrenches)
     for name, strut in struts.items():
         if isinstance(strut, LeverStrut):
             ratio = f"strut_ratio_{name}"
@@ -173,33 +187,39 @@ def _add_elastic_legs(
     return legs
 
 
-def each_of(
-    builder: DiagramBuilder, system: Any, port: str, names: Sequence[str], title: str
-) -> dict[str, Any]:
-    """Output ports of equal size for each name, cut from one of a system.
+def _add_tires(
+    builder: DiagramBuilder,
+    gears: Sequence[LandingGear],
+    runway: Runway | None,
+    together: bool,
+) -> dict[str, MountedTire]:
+    laws = {
+        wheel: tire_parameters(gear.tyres.get(wheel, gear.tyre))
+        for gear in gears
+        for wheel in gear.wheel_names
+    }
+    if together:
+        all_ = cast(Any, Tire)(list(laws.values()), runway)
+        builder.AddNamedSystem("tires", all_)
+        return {name: MountedTire(all_, i) for i, name in enumerate(laws)}
+    each = {name: cast(Any, Tire)(law, runway) for name, law in laws.items()}
+    for name, tire in each.items():
+        builder.AddNamedSystem(f"tire_{name}", tire)
+    return {name: MountedTire(tire, 0) for name, tire in each.items()}
 
-    Args:
-        builder: that holds the system.
-        system: e.g. `tires`.
-        port: whose vector is of one after the other.
-        names: in that order.
-        title: name of what cuts.
-    """
-    whole = system.GetOutputPort(port)
-    cut = Demultiplexer([whole.size() // len(names)] * len(names))
-    builder.AddNamedSystem(title, cut)
-    builder.Connect(whole, cut.get_input_port())
-    return {name: cut.get_output_port(i) for i, name in enumerate(names)}
 
-
-def _tires(gears: Sequence[LandingGear]) -> list[Any]:
-    found = []
-    for gear in gears:
-        common = tire_parameters(gear.tyre)
-        for wheel in gear.wheel_names:
-            single = gear.tyres.get(wheel)
-            found.append(common if single is None else tire_parameters(single))
-    return found
+def _add_shock_absorbers(
+    builder: DiagramBuilder, gears: Sequence[LandingGear], together: bool
+) -> dict[str, MountedShockAbsorber]:
+    laws = {g.name: shock_absorber_parameters(g.shock_absorber) for g in gears}
+    if together:
+        all_ = cast(Any, ShockAbsorber)(list(laws.values()))
+        builder.AddNamedSystem("shock_absorbers", all_)
+        return {name: MountedShockAbsorber(all_, i) for i, name in enumerate(laws)}
+    each = {name: cast(Any, ShockAbsorber)(law) for name, law in laws.items()}
+    for name, one in each.items():
+        builder.AddNamedSystem(f"shock_absorber_{name}", one)
+    return {name: MountedShockAbsorber(one, 0) for name, one in each.items()}
 
 
 def _add_brakes(
@@ -217,9 +237,7 @@ def _add_brakes(
             _connect(builder, kinematics, f"spin_{wheel}", brake, "wheel_spin")
             _connect(builder, brake, "torque", forces, f"brake_{wheel}")
             if law.anti_skid:
-                contacts = contacts or each_of(
-                    builder, systems.tire, "contact", list(systems.tires), "skids"
-                )
+                contacts = contacts or each_of(builder, systems.tires, "contact")
                 builder.Connect(contacts[wheel], brake.GetInputPort("contact"))
 
 
@@ -239,7 +257,10 @@ def _add_pitch_dampers(
 
 
 def _add_side_load(
-    builder: DiagramBuilder, gears: Sequence[LandingGear], systems: GearSystems
+    builder: DiagramBuilder,
+    gears: Sequence[LandingGear],
+    systems: GearSystems,
+    wrenches: Any,
 ) -> None:
     kinematics, brakes = systems.wheel_kinematics, systems.brakes
     struts = [
@@ -250,10 +271,11 @@ def _add_side_load(
     builder.AddNamedSystem("side_load", side_load)
     _connect(builder, kinematics, "strut_axes", side_load, "strut_axes")
     _connect(builder, kinematics, "wheels", side_load, "wheels")
-    _connect(builder, systems.tire, "wrench", side_load, "wrench")
+    builder.Connect(wrenches, side_load.GetInputPort("wrench"))
     for wheel, brake in brakes.items():
         _connect(builder, brake, "torque", side_load, f"brake_{wheel}")
-    _connect(builder, side_load, "side_load", systems.shock_absorber, "side_load")
+    across = side_load.GetOutputPort("side_load")
+    feed(builder, across, systems.shock_absorbers, "side_load")
 
 
 def _connect(

@@ -1,13 +1,14 @@
 """The diagram of a landing: airframe, gears, tyres, and what connects them.
 
-    plant.state ─▸ wheel_kinematics ─▸ tires, shock_absorbers, ... ─▸ gear_forces
+    plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_* ... ─▸ gear_forces
     gear_forces, airframe.node_*, plant.state ─▸ attachment
     attachment.wrench_on_airframe ─▸ airframe
     attachment.wrench_on_gear, gear_forces ─▸ plant
 
 Systems are named `plant`, `airframe`, `attachment`, `wheel_kinematics`, `gear_forces`,
-`tires`, `shock_absorbers` and `energy_budget`; where there are such, `brake_<wheel>`,
-`pitch_damper_<gear>`, `side_load`, `elastic_legs`, `lift` and `reverse_thrust`.
+`tire_<wheel>`, `shock_absorber_<gear>` (`together`: `tires`, `shock_absorbers`) and
+`energy_budget`; where there are such, `brake_<wheel>`, `pitch_damper_<gear>`,
+`side_load`, `elastic_legs`, `lift` and `reverse_thrust`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -26,8 +27,8 @@ from drake_landing.gears.attachment_points import (
 )
 from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
 from drake_landing.gears.data import LandingGear
-from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire
-from drake_landing.gears.systems import AddGearSystems, GearSystems, each_of
+from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire, each_of
+from drake_landing.gears.systems import AddGearSystems, GearSystems
 from drake_landing.landing.lift import AddLift, Lift
 from systems.airframe.distributed_load import DistributedLoad
 from systems.airframe.flexible_airframe import FlexibleAirframe
@@ -48,8 +49,8 @@ _LOGGED = {
     "attachment": ("load_in_airframe_axes", "gap"),
     "plant": ("state",),
     "energy_budget": ("total", "dissipated", "supplied"),
-    "tires": ("energy",),
-    "shock_absorbers": ("energy",),
+    "tire": ("energy",),
+    "shock_absorber": ("energy",),
     "brake": ("torque",),
     "pitch_damper": ("torque", "energy"),
     "elastic_legs": ("energy",),
@@ -79,7 +80,7 @@ class LandingDiagram:
         plant: the gears' bodies.
         airframe, attachment, wheel_kinematics, gear_forces: one each.
         tires: by wheel.
-        shock_absorbers: by gear; `shock_absorber`, the system of all.
+        shock_absorbers: by gear.
         brakes: by wheel, of gears that have them.
         pitch_dampers: by gear, of bogies.
         elastic_legs: of all gears that bend; None where none does.
@@ -103,7 +104,6 @@ class LandingDiagram:
     gear_forces: Any = field(repr=False)
     tires: dict[str, MountedTire] = field(repr=False)
     shock_absorbers: dict[str, MountedShockAbsorber] = field(repr=False)
-    shock_absorber: Any = field(repr=False)
     brakes: dict[str, Any] = field(repr=False)
     pitch_dampers: dict[str, Any] = field(repr=False)
     elastic_legs: Any = field(repr=False)
@@ -136,6 +136,7 @@ def MakeLandingDiagram(
     brakes: bool = False,
     energy_budget: bool = True,
     log: bool = True,
+    together: bool = False,
 ) -> LandingDiagram:
     """Builds the diagram of an aircraft that lands.
 
@@ -151,6 +152,8 @@ def MakeLandingDiagram(
         brakes: applied from the start, on gears that have them; by default none are.
         energy_budget: adds the audit, at a few per cent of the run time.
         log: adds loggers of the signals that reports need.
+        together: one system for all tyres and one for all shock absorbers, as in
+            `AddGearSystems`; the same landing in less time.
 
     Raises:
         ValueError: no gear, a name used twice, an attachment or monitoring node that
@@ -189,7 +192,14 @@ def MakeLandingDiagram(
     if bushing is None:
         require_shared_loads(body, gears, points, nodes)
     parts = AddGearSystems(
-        builder, plant, gears, bodies, runway, brakes, connect_plant=False
+        builder,
+        plant,
+        gears,
+        bodies,
+        runway,
+        brakes,
+        connect_plant=False,
+        together=together,
     )
     _connect_attachment(builder, plant, airframe, held, parts.gear_forces)
     carrying, thrust = None, None
@@ -226,7 +236,6 @@ def MakeLandingDiagram(
         gear_forces=parts.gear_forces,
         tires=parts.tires,
         shock_absorbers=parts.shock_absorbers,
-        shock_absorber=parts.shock_absorber,
         brakes=parts.brakes,
         pitch_dampers=parts.pitch_dampers,
         elastic_legs=parts.elastic_legs,
@@ -288,13 +297,13 @@ def _add_loggers(
         kind = next(kind for kind in _LOGGED if name.startswith(kind))
         for port in _LOGGED[kind]:
             ports[f"{name}.{port}"] = system.GetOutputPort(port)
-    for kind, system, names, wanted in (
-        ("tire", parts.tire, list(parts.tires), _OF_TIRES),
-        ("shock_absorber", parts.shock_absorber, list(bodies), _OF_ABSORBERS),
+    for kind, mounted, wanted in (
+        ("tire", parts.tires, _OF_TIRES),
+        ("shock_absorber", parts.shock_absorbers, _OF_ABSORBERS),
     ):
         for port in wanted:
-            each = each_of(builder, system, port, names, f"{kind} {port}s")
-            ports |= {f"{kind}_{name}.{port}": each[name] for name in names}
+            each = each_of(builder, mounted, port)
+            ports |= {f"{kind}_{name}.{port}": one for name, one in each.items()}
     for gear in parts.shock_absorbers:
         port = parts.wheel_kinematics.GetOutputPort(f"strut_{gear}")
         ports[f"strut_{gear}.strut"] = port

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from pydrake.multibody.tree import PrismaticJoint, RevoluteJoint
 from pydrake.systems.framework import Context
 
+from drake_landing.gears.mounted import systems_of
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.initial_state import attitude, tyre_clearances
 from systems.tools.rotations import quaternion_from_rotation
@@ -188,8 +189,8 @@ class _Rest:
         for joint, value in zip(self._joints, u[at:]):
             _set_position(joint, self._plant, float(value))
         self._landing.attachment.place_fittings(self._context)
-        absorber = self._landing.shock_absorber
-        absorber.settle(absorber.GetMyMutableContextFromRoot(self._context))
+        for absorber in systems_of(self._landing.shock_absorbers).values():
+            absorber.settle(absorber.GetMyMutableContextFromRoot(self._context))
 
     def _residual(self, u: Float64) -> Float64:
         self._set(u)

@@ -17,6 +17,7 @@ from drake_landing.case.axes import gear_in_A
 from drake_landing.case.bushing import Bushing
 from drake_landing.case.schema import Scenario, Simulation
 from drake_landing.gears.data import LandingGear
+from drake_landing.gears.mounted import systems_of
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import distinct_instants
 from drake_landing.landing.history import (
@@ -366,8 +367,8 @@ def _energy(landing: LandingDiagram, signal, index: pd.Index) -> pd.DataFrame:
     total = signal("energy_budget.total")[:, 0]
     parts = {
         "airframe": stored(["airframe"]),
-        "shock absorbers": stored(["shock_absorbers"]),
-        "tyres": stored(["tires"]),
+        "shock absorbers": stored(list(systems_of(landing.shock_absorbers))),
+        "tyres": stored(list(systems_of(landing.tires))),
     }
     if landing.pitch_dampers:
         parts["pitch dampers"] = stored(

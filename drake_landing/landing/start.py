@@ -62,7 +62,7 @@ def make_scenario_diagram(
     Args:
         body, gears, monitor_nodes: as in MakeLandingDiagram.
         scenario: what is to be run.
-        options: further arguments of MakeLandingDiagram.
+        options: further arguments of MakeLandingDiagram, whose `together` is True here.
 
     Raises:
         InputError: brakes are to be applied and no gear has any, or nodes that carry
@@ -82,7 +82,7 @@ def make_scenario_diagram(
         gravity=STANDARD_GRAVITY if scenario.gravity else 0.0,
         lift=_lift(scenario.lift) if isinstance(scenario.lift, LiftSection) else None,
         brakes=scenario.braking > 0,
-        **options,
+        **{"together": True, **options},
     )
 
 

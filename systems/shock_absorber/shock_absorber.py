@@ -36,8 +36,8 @@ def ShockAbsorber_(T):
     class Impl(LeafSystem_[T]):
         """One shock absorber, `ShockAbsorber(parameters)`, or n: `ShockAbsorber([p])`.
 
-        What passes a port is of one after the other; a landing has all of its shock
-        absorbers in one system, which takes a fraction of the time of as many systems.
+        What passes a port is of one after the other; several in one system take a
+        fraction of the time of as many systems.
 
         | port | size | unit | frame and sign |
         |---|---|---|---|

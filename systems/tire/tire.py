@@ -44,8 +44,7 @@ def Tire_(T):
         """One tyre, `Tire(parameters, runway)`, or n in one: `Tire([first, ...])`.
 
         The runway is flat and dry by default. What passes a port is of one tyre after
-        the other; a landing has all its tyres in one system, which takes a fraction of
-        the time of as many systems.
+        the other; several in one system take a fraction of the time of as many systems.
 
         | port | size | unit | frame and sign |
         |---|---|---|---|

@@ -244,9 +244,35 @@ def test_bearing_friction_feels_the_side_load():
     assert np.abs(total - total[0]).max() < 1e-4 * 0.5 * 72500 * SINK_RATE**2
 
 
+def test_tires_and_struts_together_are_the_same_landing():
+    """One system for each wheel and gear, or one for all: the same laws."""
+    gears = []
+    for gear in aircraft_gears():
+        absorber = gear.shock_absorber.model_copy(update={"bearing_friction": 0.1})
+        gears.append(gear.model_copy(update={"shock_absorber": absorber}))
+    apart, together = (
+        land(
+            MakeLandingDiagram(aircraft_body(3), gears, together=together),
+            duration=0.05,
+            accuracy=1e-4,
+        )
+        for together in (False, True)
+    )
+    for name in ("attachment.load_in_airframe_axes", "plant.state"):
+        assert apart[name].shape == together[name].shape
+        scale = np.abs(apart[name]).max(axis=1, keepdims=True) + 1e-9
+        assert np.abs((apart[name] - together[name]) / scale).max() < 1e-9
+    stored = sum(
+        v[0]
+        for k, v in apart.signals.items()
+        if k.startswith("tire_") and "energy" in k
+    )
+    assert_allclose(stored, together["tires.energy"][0], rtol=1e-9, atol=1e-6)
+
+
 def test_picture_names_the_systems(small):
     picture = small.graphviz()
-    for name in ("plant", "airframe", "attachment", "tires", "gear_forces"):
+    for name in ("plant", "airframe", "attachment", "tire_", "gear_forces"):
         assert name in picture
 
 
