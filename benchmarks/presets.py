@@ -80,9 +80,10 @@ def run_preset(
     **given: float,
 ) -> Trial:
     """The run of a preset, with other values where given; `wing` carries its lift."""
+    values: dict[str, object] = {"preset": name, **given}
     if isinstance(lift := PRESETS[name].values.get("lift"), dict):
-        given = {"lift": {**lift, "nodes": wing}, **given}
-    scenario = Scenario.model_validate({"preset": name, **given})
+        values.setdefault("lift", {**lift, "nodes": wing})
+    scenario = Scenario.model_validate(values)
     preset = scenario.preset_data
     assert preset is not None
     return try_scenario(body, gears, scenario, duration=preset.duration, accuracy=1e-5)

@@ -28,7 +28,8 @@ _AT_ROOT = {
     "CHANGELOG.md": "changes.md",
 }
 # The search is a dialog without a name; code would scroll, by the mouse alone;
-# links in text differ by color alone; comments in code are too pale.
+# links in text differ by color alone; comments in code are too pale; wide tables, which
+# the theme wraps when the page is there, scroll by the mouse alone.
 _PALE = ("comment", "operator", "punctuation", "generic", "variable")
 _STYLE = (
     "<style>.md-typeset :is(p,li,td) a{text-decoration:underline}"
@@ -37,7 +38,12 @@ _STYLE = (
     + "".join(f"--md-code-hl-{name}-color:#5c5c5c;" for name in _PALE)
     + "}</style></head>"
 )
+_FOCUSABLE_TABLES = (
+    '<script>addEventListener("load",()=>{for(const e of document.querySelectorAll('
+    '".md-typeset__scrollwrap"))e.tabIndex=0})</script></body>'
+)
 _ACCESSIBLE = {
+    "</body>": _FOCUSABLE_TABLES,
     'data-md-component="search" role="dialog"': 'data-md-component="search" '
     'role="dialog" aria-label="Search"',
     "</head>": _STYLE,
