@@ -1,3 +1,4 @@
+from .airframe.body import load_airframe as load_airframe
 from .campaign.cases import load_campaign as load_campaign
 from .campaign.engine import Pool as Pool
 from .campaign.run import CampaignResult as CampaignResult
@@ -14,6 +15,7 @@ from .landing.run import fly as fly
 from .parametric import ParametricAircraft as ParametricAircraft
 from .parametric import WrittenAircraft as WrittenAircraft
 from .parametric import register as register
+from .process.aircraft import prepare_aircraft as prepare_aircraft
 from .process.run import run_case as run_case
 from .results.result import ProcessResult as ProcessResult
 

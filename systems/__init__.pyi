@@ -3,6 +3,8 @@ from .airframe.flexible_airframe import FlexibleAirframe as FlexibleAirframe
 from .airframe.modal_body import ModalBody as ModalBody
 from .airframe.modal_recovery import AddModalRecovery as AddModalRecovery
 from .airframe.modal_recovery import ModalRecovery as ModalRecovery
+from .airframe.quasi_steady_lift import QuasiSteadyLift as QuasiSteadyLift
+from .airframe.quasi_steady_lift import Surface as Surface
 from .attachment.attachment import RigidAttachment as RigidAttachment
 from .attachment.attachment_points import AttachmentPoint as AttachmentPoint
 from .attachment.bushing_attachment import BushingAttachment as BushingAttachment
@@ -13,6 +15,8 @@ from .gear.brake import AntiSkid as AntiSkid
 from .gear.brake import Brake as Brake
 from .gear.brake import Brake_ as Brake_
 from .gear.brake import BrakeParameters as BrakeParameters
+from .gear.elastic_legs import ElasticLeg as ElasticLeg
+from .gear.elastic_legs import ElasticLegs as ElasticLegs
 from .gear.energy_budget import AddEnergyBudget as AddEnergyBudget
 from .gear.energy_budget import EnergyBudget as EnergyBudget
 from .gear.gear_forces import GearForces as GearForces
@@ -36,6 +40,7 @@ from .shock_absorber.strut_law import (
 from .shock_absorber.strut_law import (
     ShockAbsorberTunables as ShockAbsorberTunables,
 )
+from .tire.magic_formula import MagicFormula as MagicFormula
 from .tire.slip import SineSlip as SineSlip
 from .tire.slip import TabulatedSlip as TabulatedSlip
 from .tire.tire import Tire as Tire
@@ -43,4 +48,5 @@ from .tire.tire import Tire_ as Tire_
 from .tire.tire import TireContact as TireContact
 from .tire.tire import TireTunables as TireTunables
 from .tire.tire_law import TireParameters as TireParameters
+from .tools.grid import Grid as Grid
 from .tools.table import Table as Table
