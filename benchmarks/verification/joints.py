@@ -51,8 +51,8 @@ def _joint(card: str) -> Bulk:
     diameter = 1e-5
     if card == "CFAST":
         bulk.add("PFAST", 8, diameter, 0, 1, *[_STIFF] * 6)
-    else:  # of no length, sheared: k = 0.9 G A / LDMIN D
-        shear = _STIFF * 0.2 * diameter / (0.9 * 0.25 * np.pi * diameter**2)
+    else:  # of no length, sheared: k = G A / LDMIN D
+        shear = _STIFF * 0.2 * diameter / (0.25 * np.pi * diameter**2)
         bulk.add("MAT1", 2, 2.0 * shear, "", 0.0)
         bulk.add("PWELD", 8, 2, diameter)
     for i in range(3):

@@ -25,7 +25,7 @@ def cweld(f: Fields) -> Rows:
     for k, name in ((3, "gs"), (5, "ga"), (6, "gb")):
         row[name] = f.integer(k, name.upper(), 0)
     nothing = np.zeros(0, np.int64)
-    row.update(ida=0, idb=0, gas=nothing, gbs=nothing)
+    row.update(ida=0, idb=0, gas=nothing, gbs=nothing, mcid=f.integer(8, "MCID", -1))
     row.update({f"{axis}s": float("nan") for axis in "xyz"})
     if form == "GRIDID":
         kind = f.word(7, "SPTYP", "")

@@ -113,7 +113,7 @@ RECORDS = (
         group=_GROUP,
         read=welds.cweld,
         more="eid:i pid:i>PWELD form:s ida:i idb:i gs:i>GRID? ga:i>GRID? gb:i>GRID? "
-        "xs:f[L] ys:f[L] zs:f[L] gas:*>GRID? gbs:*>GRID?",
+        "xs:f[L] ys:f[L] zs:f[L] gas:*>GRID? gbs:*>GRID? mcid:i>CORD",
         ids="own",
         element=Element(
             reader="connectors.reader:read_cweld",

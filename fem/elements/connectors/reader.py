@@ -62,15 +62,15 @@ def read_cweld(deck: "Deck", points: Points) -> list[Connectors]:
     material = isotropic(deck, values, "PWELD")
     diameter = column(values, "d")
     placed = place_connectors(deck, points, rows, "CWELD", diameter)
-    length = _lengths(placed)
+    axis, length = _axis(placed, diameter), _lengths(placed)
     effective = _effective_length(deck, rows, values, placed, length)
     return _blocks(
         "CWELD",
         rows,
         placed,
-        axes=axes_about(_axis(placed, diameter)),
-        k=weld_stiffness(material.e, material.g, diameter, length, effective),
-        m=0.25 * np.pi * diameter**2 * length * material.rho,
+        axes=_relative_axes("CWELD", points, rows, rows["mcid"], placed, axis),
+        k=weld_stiffness(material.e, material.g, diameter, effective),
+        m=np.zeros(len(rows)),  # as Nastran; RHO counts for nothing
         ge=material.ge,
     )
 
@@ -99,8 +99,9 @@ def connector_notices(deck: "Deck") -> list[str]:
     names = ", ".join(f"{name} ({n})" for name, n in counts.items() if n)
     return [
         f"{names}: linear springs between points that follow the corners of the shells "
-        "(translations only; ZOFFS counts for nothing), approximately as Nastran; "
-        "grids GA and GB that nothing else uses follow the surface"
+        "(translations only; ZOFFS counts for nothing), welds without mass, "
+        "approximately as Nastran; grids GA and GB that nothing else uses follow the "
+        "surface"
     ]
 
 
@@ -132,21 +133,45 @@ def _fastener_axes(
         InputError: MCID whose y axis lies along the fastener.
     """
     mcid = values["mcid"].to_numpy(np.int64)
-    place = np.stack([a.place for a, _ in placed.feet])
-    given = points.frames.triads(np.maximum(mcid, 0), place)
-    absolute = (values["mflag"] == 1).to_numpy()
-    relative = (mcid >= 0) & ~absolute
+    absolute = (values["mflag"] == 1).to_numpy() & (mcid >= 0)
+    relative = values["mcid"].where(~absolute, -1)
+    axes = _relative_axes("CFAST", points, rows, relative, placed, axis)
+    axes[absolute] = _triads(points, mcid, placed)[absolute]
+    return axes
+
+
+def _relative_axes(
+    card: str,
+    points: Points,
+    rows: pd.DataFrame,
+    systems: pd.Series,
+    placed: Placed,
+    axis: Float64,
+) -> Float64:
+    """(e, 3, 3): along the connector, with y near that of MCID, -1: of a basic axis.
+
+    Raises:
+        InputError: MCID whose y axis lies along the connector.
+    """
+    mcid = systems.to_numpy(np.int64)
+    chosen = mcid >= 0
     axes = axes_about(axis)
-    axes[relative] = axes_from_vector(axis[relative], given[relative][:, :, 1])
-    axes[(mcid >= 0) & absolute] = given[(mcid >= 0) & absolute]
+    vector = _triads(points, mcid, placed)[chosen][:, :, 1]
+    axes[chosen] = axes_from_vector(axis[chosen], vector)
     bad = np.isnan(axes).any(axis=(1, 2))
     if bad.any():
         raise InputError(
-            f"{where('CFAST', rows.iloc[i])}: the y axis of MCID {mcid[i]} lies along "
-            "the fastener, expected another direction or MFLAG 1"
+            f"{where(card, rows.iloc[i])}: the y axis of MCID {mcid[i]} lies along "
+            f"it, expected another direction{' or MFLAG 1' * (card == 'CFAST')}"
             for i in np.flatnonzero(bad)
         )
     return axes
+
+
+def _triads(points: Points, mcid: Int64, placed: Placed) -> Float64:
+    """(e, 3, 3) axes of coordinate systems at feet A."""
+    place = np.stack([a.place for a, _ in placed.feet])
+    return points.frames.triads(np.maximum(mcid, 0), place)
 
 
 def _effective_length(

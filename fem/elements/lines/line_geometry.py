@@ -80,7 +80,9 @@ def axes_from_vector(x: Float64, v: Float64) -> Float64:
 
 
 def axes_about(x: Float64) -> Float64:
-    """Axes with the given x directions; y and z are arbitrary normals.
+    """Axes with the given x directions, y near the basic axis most across to x.
+
+    The first of several that are equally so, up to rounding.
 
     Args:
         x: (e, 3) directions, any length.
@@ -88,7 +90,9 @@ def axes_about(x: Float64) -> Float64:
     Returns:
         (e, 3, 3) axes as columns.
     """
-    seed = np.eye(3)[np.argmin(np.abs(x), axis=1)]
+    along = np.abs(x)
+    least = along.min(axis=1, keepdims=True) + 1e-9 * _norm(x)
+    seed = np.eye(3)[np.argmax(along <= least, axis=1)]
     return axes_from_vector(x, seed)
 
 

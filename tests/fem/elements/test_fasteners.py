@@ -60,25 +60,84 @@ def test_rigid_motion_costs_no_force(model, name, tilt):
 
 
 def test_a_weld_between_grids_is_a_bar_of_its_section(model):
+    """Of constant strain: the bar's shear relief gives L / G A in all."""
     radius, length = 0.15, 0.2
+    inertia = 0.25 * np.pi * radius**4
+    bending = (70.0 / 2.6) * np.pi * radius**2 * length**2 / (12.0 * 70.0 * inertia)
+    k = 1.0 / (1.0 - bending)
     made = model(
         plates() + FORMATS["align"] + "\nCBAR,91,7,5,15,1.,0.,0.\n"
-        f"PBARL,7,1,,ROD,,,,,+\n+,{radius}"
+        f"PBAR*,7,1,{np.pi * radius**2:.9f},{inertia:.9e},+\n"
+        f"*,{inertia:.9e},{2.0 * inertia:.9e},,,+\n*,,,,,+\n*,,,,,+\n*,{k:.9f},{k:.9f}"
     )
     (weld,) = connectors(made)
     (bar,) = [b for b in made.blocks if b.card == "CBAR"]
     area = np.pi * radius**2
-    k1 = bar.section.k1[0]
-    np.testing.assert_allclose(k1, 0.9, rtol=1e-3)
     scale = np.abs(bar.stiffness()).max()
     np.testing.assert_allclose(
-        weld.stiffness(), bar.stiffness(), atol=1e-4 * scale, rtol=1e-3
+        weld.stiffness(), bar.stiffness(), atol=1e-8 * scale, rtol=1e-7
     )
     pulled = np.zeros(12)
     pulled[[6, 8, 9]] = 0.01, 0.02, 0.03
     force = {b.card: b.forces().matrix[0] @ pulled for b in (weld, bar)}
     assert force["CWELD"][6] == pytest.approx(70.0 * area / length * 0.02)
-    np.testing.assert_allclose(force["CWELD"], force["CBAR"], rtol=1e-3, atol=1e-9)
+    np.testing.assert_allclose(force["CWELD"], force["CBAR"], rtol=1e-7, atol=1e-9)
+    assert weld.mass(coupled=False) is None
+
+
+@pytest.mark.parametrize("name", ["elpat", "elem"])
+def test_one_point_pierces_tilted_surfaces_in_the_middle(model, name):
+    """z = 0 and z = h + 0.3 x, the two ways over from P in closed form."""
+    gap, tilt = 0.2, 0.3
+    text = plates(gap, tilt) + FORMATS[name].replace(",,81,82", ",80")
+    made = model(text)
+    (block,) = connectors(made)
+    unit = np.array([-tilt, 0.0, 1.0]) / np.hypot(1.0, tilt)
+    start = np.array([0.8, 0.7, 0.4 * gap])
+
+    def upper(p):
+        return p + ((np.array([0.0, 0.0, gap]) - p) @ unit) * unit
+
+    def lower(p):
+        return p * [1.0, 1.0, 0.0]
+
+    expected = (
+        0.5 * (lower(start) + lower(upper(start))),
+        0.5 * (upper(start) + upper(lower(start))),
+    )
+    assert block.length[0] == pytest.approx(np.linalg.norm(expected[1] - expected[0]))
+    if name == "elpat":
+        # Motion u = x of the grids: the feet's translations are where they stand.
+        motion = np.zeros(made.points.size)
+        motion.reshape(-1, 6)[:, :3] = made.points.xyz
+        feet = block.feet[0] @ motion[block.dof[0]]
+        np.testing.assert_allclose(feet, np.concatenate(expected), atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("mcid", "y"), [("", [1.0, 0.0, 0.0]), ("0", [0.0, 1.0, 0.0]), ("5", [-1, 0, 0])]
+)
+def test_axes_of_a_weld(model, mcid, y):
+    """Near the first of the basic axes across, or near that of MCID."""
+    frame = "CORD2R,5,,0.,0.,0.,0.,0.,1.,+\n+,0.,1.,0.\n"
+    card = FORMATS["elpat"].replace("ELPAT,,,,,", f"ELPAT,,,,{mcid},")
+    made = model(frame + plates() + card)
+    (block,) = connectors(made)
+    upper = np.zeros((made.points.size, 3))  # the upper plate moves as one
+    for j in range(3):
+        upper[6 * made.points.rows(np.arange(11, 20)) + j, j] = 1.0
+    np.testing.assert_allclose(
+        block.motion[0, :3] @ upper[block.dof[0]],
+        np.array([(0, 0, 1), y, np.cross((0, 0, 1), y)]),
+        atol=1e-12,
+    )
+
+
+def test_a_system_along_a_weld_gives_no_axes(model):
+    card = FORMATS["elpat"].replace("ELPAT,,,,,", "ELPAT,,,,5,")
+    frame = "CORD2R,5,,0.,0.,0.,1.,0.,0.,+\n+,0.,1.,0.\n"
+    with pytest.raises(InputError, match=r"CWELD 90.*y axis of MCID 5 lies along"):
+        model(frame.replace("+,0.,1.,0.", "+,0.,-1.,0.") + plates() + card)
 
 
 @pytest.mark.parametrize("name", ["elemid", "elem", "partpat", "place"])
