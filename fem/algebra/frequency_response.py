@@ -39,12 +39,19 @@ class HarmonicMatrices:
         stiffness, mass: K and M.
         viscous: B; None: none.
         structural: G K + K4; None: none.
+        varying: the matrices at a frequency in Hz, where they depend on it; the others
+            are nominal then, those that modes belong to.
     """
 
     stiffness: sp.csr_matrix
     mass: sp.csr_matrix
     viscous: sp.csr_matrix | None = None
     structural: sp.csr_matrix | None = None
+    varying: "Callable[[float], HarmonicMatrices] | None" = None
+
+    def at(self, hertz: float) -> "HarmonicMatrices":
+        """The matrices at a frequency."""
+        return self if self.varying is None else self.varying(hertz)
 
     def loss(self, omega: float) -> sp.csr_matrix | None:
         """C at an angular frequency; None where there is no damping."""
@@ -80,8 +87,9 @@ def direct_response(
     found = np.zeros((len(frequency_hz), n), complex)
     for k, hertz in enumerate(frequency_hz):
         omega = 2.0 * np.pi * float(hertz)
-        dynamic = sp.csr_matrix(matrices.stiffness - omega**2 * matrices.mass)
-        loss, p = matrices.loss(omega), load(k)
+        own = matrices.at(float(hertz))
+        dynamic = sp.csr_matrix(own.stiffness - omega**2 * own.mass)
+        loss, p = own.loss(omega), load(k)
         whole = dynamic
         if loss is not None:
             whole = sp.csr_matrix(sp.bmat([[dynamic, -loss], [-loss, -dynamic]]))
@@ -133,22 +141,31 @@ def modal_response(
         np.linalg.LinAlgError: at a frequency of an undamped mode.
     """
     shape, square = modes.shape, modes.eigenvalue
-    m = len(square)
-    viscous = np.zeros((m, m))
-    structural = np.zeros((m, m))
-    if matrices.viscous is not None:
-        viscous += shape.T @ (matrices.viscous @ shape)
-    if matrices.structural is not None:
-        structural += shape.T @ (matrices.structural @ shape)
+    damping = np.zeros((2, len(square), len(square)))  # viscous, structural
     if ratio is not None:
         own = 2.0 * ratio
-        if hysteretic:
-            structural += np.diag(own * square)
-        else:
-            viscous += np.diag(own * np.sqrt(np.abs(square)))
-    found = np.empty((len(frequency_hz), m), complex)
+        damping[int(hysteretic)] = np.diag(
+            own * square if hysteretic else own * np.sqrt(np.abs(square))
+        )
+    nominal = damping + _projected(shape, matrices)
+    found = np.empty((len(frequency_hz), len(square)), complex)
     for k, hertz in enumerate(frequency_hz):
         omega = 2.0 * np.pi * float(hertz)
-        matrix = np.diag(square - omega**2) + 1j * (omega * viscous + structural)
-        found[k] = np.linalg.solve(matrix, load[:, k])
+        matrix, (viscous, structural) = np.diag(square - omega**2), nominal
+        if matrices.varying is not None:
+            there = matrices.varying(float(hertz))
+            change = sp.csr_matrix(there.stiffness - matrices.stiffness)
+            matrix = matrix + shape.T @ (change @ shape)
+            viscous, structural = damping + _projected(shape, there)
+        dynamic = matrix + 1j * (omega * viscous + structural)
+        found[k] = np.linalg.solve(dynamic, load[:, k])
+    return found
+
+
+def _projected(shape: Float64, matrices: HarmonicMatrices) -> Float64:
+    """(2, m, m) viscous and structural damping of shapes (n, m)."""
+    found = np.zeros((2, shape.shape[1], shape.shape[1]))
+    for own, matrix in zip(found, (matrices.viscous, matrices.structural)):
+        if matrix is not None:
+            own += shape.T @ (matrix @ shape)
     return found

@@ -26,6 +26,8 @@ class Recovery:
             to linear quantities.
         id: (e,) element ids.
         rate: (e, c_linear, n) what velocities of the freedoms add (dampers), or None.
+        loss: (e, c_linear, n) the imaginary part of `matrix` in harmonic motion
+            (structural damping), or None.
     """
 
     table: str
@@ -33,6 +35,7 @@ class Recovery:
     matrix: Float64
     id: Int64
     rate: Float64 | None = None
+    loss: Float64 | None = None
 
     def derive(self, linear: Float64) -> Float64:
         """Printed columns from linear quantities; overridden for von Mises etc.

@@ -25,6 +25,8 @@ from fem.loads.element_loads import ElementLoads
 from fem.loads.thermal import FreeMotions
 from fem.model.assembly import triples_rotation, turn_columns
 
+Complex128 = npt.NDArray[np.complex128]
+
 # Elements that are evaluated at once: histories of their results fit into a cache.
 _PIECE = 256
 
@@ -41,6 +43,7 @@ class ElementTable:
         parts: recoveries of the blocks, in the order of the rows.
         order: (e,) positions of `id` in the parts put together.
         rate: (r, g) what velocities add, None: nothing.
+        loss: (r, g) the imaginary part of `operator` in harmonic motion, None: none.
         of_loads: (r, k) what loads on elements add per unit of their k factors, None:
             nothing.
     """
@@ -52,6 +55,7 @@ class ElementTable:
     parts: tuple[Recovery, ...]
     order: npt.NDArray[np.intp]
     rate: sp.csr_matrix | None = None
+    loss: sp.csr_matrix | None = None
     of_loads: Float64 | None = None
 
     def evaluate(self, linear: Float64) -> Float64:
@@ -81,6 +85,15 @@ class ElementTable:
                 )
             row, first = row + elements * quantities, first + elements
         return tuple(pieces)
+
+    def harmonic(self, u: Complex128, rate: Complex128) -> Complex128:
+        """(f, r) linear quantities of displacements u (f, g); rate (f, 1): i omega."""
+        linear = (self.operator @ u.T).T
+        if self.rate is not None:
+            linear = linear + (self.rate @ (rate * u).T).T
+        if self.loss is not None:
+            linear = linear + 1j * (self.loss @ u.T).T
+        return linear
 
     def of(self, displacement: Float64) -> Float64:
         """Results (e, c) of displacements (g,), or (t, e, c) of (g, t), at rest.
@@ -121,6 +134,7 @@ class _Part:
     recovery: Recovery
     operator: sp.csr_matrix
     rate: sp.csr_matrix | None
+    loss: sp.csr_matrix | None
     of_loads: Float64 | None
 
 
@@ -235,13 +249,16 @@ def _part(
     moving: bool,
 ) -> _Part:
     dof = block.dof[keep]
-    rate = None
+    rate = loss = None
+    if moving and recovery.loss is not None and np.any(recovery.loss):
+        loss = _operator(points, block.frame, dof, recovery.loss)
     if moving and recovery.rate is not None and np.any(recovery.rate):
         rate = _operator(points, block.frame, dof, recovery.rate)
     return _Part(
         recovery=recovery,
         operator=_operator(points, block.frame, dof, recovery.matrix),
         rate=rate,
+        loss=loss,
         of_loads=None
         if loads is None
         else _of_loads(points, block, kind, detail, recovery.id, loads),
@@ -290,6 +307,7 @@ def _table(name: str, columns: tuple[str, ...], parts: Sequence[_Part]) -> Eleme
         parts=tuple(part.recovery for part in parts),
         order=order,
         rate=_stacked([part.rate for part in parts], parts),
+        loss=_stacked([part.loss for part in parts], parts),
         of_loads=_below([part.of_loads for part in parts], parts),
     )
 

@@ -4,7 +4,7 @@ Structural damping is used as it is (PARAM G, GE); viscous damping of elements a
 B2GG; in modes SDAMPING as well, viscous, or structural with PARAM KDAMP -1.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,6 +28,7 @@ from fem.recovery.elements import element_tables
 from fem.recovery.harmonic import harmonic_table
 from fem.response.modal import residual_vectors
 from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.frequency_dependence import FrequencyDependence
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
 from fem.solution.options import Options
@@ -78,6 +79,7 @@ def _is_modal(model: Structure) -> bool:
 
 def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
     """Matrices of the analysis set with their damping."""
+    varying = FrequencyDependence.of(model.deck, model.points, model.blocks)
     g = float(model.deck.number("G"))
     given, expand = model.matrices, reduced.expand
 
@@ -86,14 +88,34 @@ def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
 
     structural = own(given.structural_damping)
     if g:
-        part = sp.csr_matrix(g * reduced.stiffness)
-        structural = part if structural is None else sp.csr_matrix(structural + part)
-    return HarmonicMatrices(
+        structural = _sum(structural, sp.csr_matrix(g * reduced.stiffness))
+    nominal = HarmonicMatrices(
         stiffness=reduced.stiffness,
         mass=reduced.mass,
         viscous=own(given.damping),
         structural=structural,
     )
+    if varying is None:
+        return nominal
+
+    def at(hertz: float) -> HarmonicMatrices:
+        change = varying.at(hertz)
+        stiffness = sp.csr_matrix(expand.T @ (change.stiffness @ expand))
+        loss = g * change.stiffness + change.structural_damping
+        return replace(
+            nominal,
+            stiffness=sp.csr_matrix(nominal.stiffness + stiffness),
+            viscous=_sum(nominal.viscous, own(change.damping)),
+            structural=_sum(nominal.structural, own(sp.csr_matrix(loss))),
+        )
+
+    return replace(nominal, varying=at)
+
+
+def _sum(a: sp.csr_matrix | None, b: sp.csr_matrix | None) -> sp.csr_matrix | None:
+    if a is None or b is None:
+        return b if a is None else a
+    return sp.csr_matrix(a + b)
 
 
 def _direct(
@@ -226,6 +248,7 @@ def _write(
         mpc = model.elimination.mpc_force(residual.T).T
         out.points("mpc_force", mpc, "MPCFORCES")
     detail = detail_of(model.deck, case)
+    varying = FrequencyDependence.of(model.deck, model.points, model.blocks)
     for request, kind in ELEMENT_RESULTS:
         if kind == "failure":  # has no phase
             continue
@@ -237,9 +260,9 @@ def _write(
             detail=detail,
             moving=True,
         ):
-            linear = (table.operator @ u_g.T).T
-            if table.rate is not None:
-                linear = linear + (table.rate @ (rate * u_g).T).T
+            linear = table.harmonic(u_g, rate)
+            if varying is not None and table.table in varying.cards:
+                linear = varying.linear(table, kind, detail, hertz, u_g)
             harmonic, values = harmonic_table(table, linear)
             results.write_table(f"{name}/element_{kind}", harmonic, values)
 
@@ -250,7 +273,14 @@ def _residual(model: Structure, rate: Complex128, u_g: Complex128) -> Complex128
     force = (1.0 + 1j * g) * (m.stiffness @ u_g.T).T
     force += 1j * (m.structural_damping @ u_g.T).T
     force += rate**2 * (m.mass @ u_g.T).T
-    return force + rate * (m.damping @ u_g.T).T
+    force += rate * (m.damping @ u_g.T).T
+    varying = FrequencyDependence.of(model.deck, model.points, model.blocks)
+    if varying is not None:
+        for k, w in enumerate(rate[:, 0]):
+            own, u = varying.at(w.imag / (2.0 * np.pi)), u_g[k]
+            force[k] += (1.0 + 1j * g) * (own.stiffness @ u) + w * (own.damping @ u)
+            force[k] += 1j * (own.structural_damping @ u)
+    return force
 
 
 def _summary(model: Structure, hertz: Float64, u_g: Complex128) -> str:

@@ -331,3 +331,32 @@ def tempp1(f: Fields) -> Rows:
     row["tbar"], row["tprime"] = f.real(3, "TBAR"), f.real(4, "TPRIME", 0.0)
     written, between = f.ids(9, "EID2") if len(f) > 9 else ([], [])
     return [{**row, "eid": e} for e in (f.integer(2, "EID1"), *written, *between)]
+
+
+def pbusht(f: Fields) -> Rows:
+    """PBUSHT: tables of K, B and GE in rows of eight fields, in any order.
+
+    KN, force over deflection, is for nonlinear solutions.
+    """
+    tables = {name: np.zeros(6, np.int64) for name in ("K", "B", "GE", "KN")}
+    for start in range(2, len(f), 8):
+        name = f.word(start, "TYPE", "")
+        if not name:
+            continue
+        if name not in tables:
+            raise Malformed(f"field TYPE: found {name}, expected K, B, GE or KN")
+        tables[name] = np.array([f.integer(start + k, "TID", 0) for k in range(1, 7)])
+    row = {"pid": f.integer(1, "PID"), "ks": np.ones(6), "bs": np.ones(6)}
+    given = {f"{name.lower()}tables": tables[name] for name in ("K", "B", "GE")}
+    return [{**row, **given}]
+
+
+def pelast(f: Fields) -> Rows:
+    """PELAST: tables of K and GE; that of force over elongation is not linear."""
+    k, ge = f.integer(2, "TKID", 0), f.integer(3, "TGEID", 0)
+    return [{"pid": f.integer(1, "PID"), "ktable": k, "getable": ge, "k": 1.0}]
+
+
+def pdampt(f: Fields) -> Rows:
+    """PDAMPT: the table of B."""
+    return [{"pid": f.integer(1, "PID1"), "btable": f.integer(2, "TBID1", 0), "b": 1.0}]

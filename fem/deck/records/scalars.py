@@ -7,7 +7,7 @@ spelled.
 from functools import partial
 
 from fem.deck import conversions
-from fem.deck.cards import finish, from_pynastran
+from fem.deck.cards import finish, from_pynastran, lists
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 
 _GROUP = "Springs, dampers"
@@ -159,5 +159,30 @@ RECORDS = (
         more="pid:i ks:* bs:* ges:* mass:f[M] sa:f st:f ea:f et:f",
         ids="own",
         convert=conversions.bush,
+    ),
+    # Tables of frequency, 0: none; ks, bs, k, b: factors of their units.
+    Card(
+        name="PBUSHT",
+        group=_GROUP,
+        read=lists.pbusht,
+        more="pid:i ktables:* btables:* getables:* ks:* bs:*",
+        ids="own",
+        convert=conversions.bush,
+    ),
+    Card(
+        name="PELAST",
+        group=_GROUP,
+        read=lists.pelast,
+        more="pid:i ktable:i getable:i k:f",
+        ids="own",
+        convert=partial(conversions.by_use, column="k", user="CELAS1"),
+    ),
+    Card(
+        name="PDAMPT",
+        group=_GROUP,
+        read=lists.pdampt,
+        more="pid:i btable:i b:f",
+        ids="own",
+        convert=partial(conversions.by_use, column="b", user="CDAMP1"),
     ),
 )

@@ -69,28 +69,41 @@ class Bushings(DenseBlock):
         return matrix
 
     def forces(self) -> Recovery:
-        """Forces of the springs and, in transients, of the dashpots."""
-        return self._recovery(BUSH_FORCE, self.k, self.b)
+        """Forces of the springs and, in motion, of the dashpots.
+
+        In harmonic motion (K + i GE K + i w B) u, as MSC Nastran has them.
+        """
+        return self._recovery(BUSH_FORCE, np.ones_like(self.k))
 
     def stresses(self) -> Recovery:
         """Forces times the coefficients SA and ST of PBUSH (RCV), 1 by default."""
         stress = np.repeat(self.coefficients[:, :2], 3, axis=1)
-        return self._recovery(BUSH_STRESS, stress * self.k, stress * self.b)
+        return self._recovery(BUSH_STRESS, stress)
 
     def strains(self) -> Recovery:
         """Deformations times the coefficients EA and ET of PBUSH (RCV)."""
         strain = np.repeat(self.coefficients[:, 2:], 3, axis=1)
-        return self._recovery(BUSH_STRESS, strain, np.zeros_like(strain))
+        return Recovery(
+            table=self.card,
+            columns=BUSH_STRESS,
+            matrix=strain[:, :, None] * self.motion,
+            id=self.id,
+        )
 
-    def _recovery(
-        self, columns: tuple[str, ...], of_motion: Float64, of_rate: Float64
-    ) -> Recovery:
-        rate = of_rate[:, :, None] * self.motion if np.any(of_rate) else None
+    def _recovery(self, columns: tuple[str, ...], factor: Float64) -> Recovery:
+        """Forces along the axes times factors (e, 6)."""
+
+        def map_of(values: Float64) -> Float64 | None:
+            if not np.any(values):
+                return None
+            return (factor * values)[:, :, None] * self.motion
+
         return Recovery(
             table=self.card,
             columns=columns,
-            matrix=of_motion[:, :, None] * self.motion,
-            rate=rate,
+            matrix=(factor * self.k)[:, :, None] * self.motion,
+            rate=map_of(self.b),
+            loss=map_of(self.ge * self.k),
             id=self.id,
         )
 

@@ -133,6 +133,71 @@ def test_post_processors_find_complex_displacements(solve):
     assert table._times == pytest.approx(found["frequency/1/frequency_hz"])
 
 
+VARYING = """\
+GRID,1,,0.,0.,0.
+CBUSH,1,1,2,,,,,0
+GRID,2,,1.,0.,0.
+PBUSH,1,K,500.
+,,GE,.1
+PBUSHT,1,B,12
+,,GE,13
+,,K,11
+CONM2,9,2,,2.
+CELAS1,2,2,2,2
+PELAS,2,900.,.5
+PELAST,2,21,0
+CDAMP1,3,3,2,2
+PDAMP,3,4.
+PDAMPT,3,22
+SPC1,1,3456,2
+SPC1,1,123456,1
+DAREA,9,2,1,10.
+DAREA,9,2,2,20.
+RLOAD1,5,9,,,1.
+TABLED1,11
+,0.,700.,100.,1700.,ENDT
+TABLED1,12
+,0.,3.,100.,103.,ENDT
+TABLED1,13
+,0.,2.,100.,1.,ENDT
+TABLED1,21
+,0.,800.,100.,300.,ENDT
+TABLED1,22
+,0.,5.,100.,1.,ENDT
+FREQ1,3,1.,.5,10
+EIGRL,1,,,2
+"""
+
+
+@pytest.mark.parametrize("sol", [108, 111])
+def test_springs_and_dampers_follow_their_tables_of_frequency(solve, sol):
+    """Forces of CBUSH have all parts of its impedance, balances hold."""
+    case = f"{CASE}SPCF = ALL\nFORCE = ALL\n"
+    found = solve(sol, case, f"PARAM,G,{G}\n{VARYING}")[0]
+    hertz = found["frequency/1/frequency_hz"]
+    omega = 2.0 * np.pi * hertz
+    k, b, ge = 700.0 + 10.0 * hertz, 3.0 + hertz, 2.0 - 0.01 * hertz
+    bush = k * (1.0 + 1j * ge) + 1j * omega * b
+    k2, b2 = 800.0 - 5.0 * hertz, 5.0 - 0.04 * hertz
+    x = 10.0 / (bush + 1j * G * k - 2.0 * omega**2)
+    y = 20.0 / (k2 * (1.0 + 1j * (0.5 + G)) + 1j * omega * b2 - 2.0 * omega**2)
+    u = found["frequency/1/displacement"][:, 1]
+    assert u[:, :2] == pytest.approx(np.stack([x, y], axis=1), rel=1e-9)
+    forces = {
+        card: found[f"frequency/1/element_force/{card}/value"][:, 0, 0]
+        for card in ("CBUSH", "CELAS1", "CDAMP1")
+    }
+    assert np.abs(forces["CBUSH"]) == pytest.approx(np.abs(bush * x), rel=1e-9)
+    assert forces["CELAS1"] == pytest.approx(k2 * y, rel=1e-9)
+    assert forces["CDAMP1"] == pytest.approx(1j * omega * b2 * y, rel=1e-9)
+    assert np.abs(found["frequency/1/spc_force"][:, 1]).max() < 1e-6
+
+
+def test_a_table_of_frequency_that_is_not_there_is_named(solve):
+    with pytest.raises(InputError, match="TABLED1 99 is not defined"):
+        solve(108, CASE, VARYING.replace("PDAMPT,3,22", "PDAMPT,3,99"))
+
+
 @pytest.mark.parametrize(
     ("sol", "case", "bulk", "message"),
     [
