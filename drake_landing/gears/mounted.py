@@ -11,35 +11,52 @@ from typing import Any
 from pydrake.systems.framework import Context, DiagramBuilder
 from pydrake.systems.primitives import Demultiplexer, Multiplexer
 
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
 from systems.tire.tire import TireContact
-from systems.tire.tire_law import TireParameters
 
 
 @dataclass(frozen=True)
-class MountedTire:
+class _Mounted:
+    system: Any
+    which: int
+
+    @property
+    def parameters(self) -> Any:
+        """Of its law."""
+        return self.system.parameters[self.which]
+
+    def _own(self, root: Context) -> Context:
+        return self.system.GetMyContextFromRoot(root)
+
+    def _mutable(self, root: Context) -> Context:
+        return self.system.GetMyMutableContextFromRoot(root)
+
+    def _share(self, values: Any) -> Any:
+        """Its part of a vector for one after the other."""
+        return values.reshape(len(self.system.parameters), -1)[self.which]
+
+    def _output(self, root: Context, port: str) -> Any:
+        return self._share(self.system.GetOutputPort(port).Eval(self._own(root)))
+
+    def _tunables(self, root: Context) -> Any:
+        return self._share(self._own(root).get_numeric_parameter(0).CopyToVector())
+
+
+class MountedTire(_Mounted):
     """A tyre; contexts are those of the diagram that holds its system.
 
     Attributes:
         system: `Tire` of this wheel, or of all.
         which: its place in that system.
+        parameters: `TireParameters`.
     """
-
-    system: Any
-    which: int
-
-    @property
-    def parameters(self) -> TireParameters:
-        """Of its law."""
-        return self.system.parameters[self.which]
 
     def contact(self, root: Context) -> Any:
         """`TireContact`, see the port of `Tire`."""
-        return TireContact(self._rows(root, "contact"))
+        return TireContact(self._output(root, "contact"))
 
     def wrench(self, root: Context) -> Any:
         """(6,) [torque; force] on the wheel at its centre, W, N m and N."""
-        return self._rows(root, "wrench")
+        return self._output(root, "wrench")
 
     def clearance(self, root: Context) -> Any:
         """Height of its lowest point over the runway below it, m."""
@@ -51,60 +68,38 @@ class MountedTire:
 
     def set_factors(self, root: Context, **factors: Any) -> None:
         """Sets stiffness, damping and friction, factors on its law, 1 if not given."""
-        own = self.system.GetMyMutableContextFromRoot(root)
-        self.system.set_factors(own, which=self.which, **factors)
+        self.system.set_factors(self._mutable(root), which=self.which, **factors)
 
     def factors(self, root: Context) -> Any:
         """(3,) `TireTunables`."""
-        values = self._own(root).get_numeric_parameter(0).CopyToVector()
-        return values[3 * self.which : 3 * self.which + 3]
-
-    def _own(self, root: Context) -> Context:
-        return self.system.GetMyContextFromRoot(root)
-
-    def _rows(self, root: Context, port: str) -> Any:
-        found = self.system.GetOutputPort(port).Eval(self._own(root))
-        return found.reshape(-1, 6)[self.which]
+        return self._tunables(root)
 
 
-@dataclass(frozen=True)
-class MountedShockAbsorber:
+class MountedShockAbsorber(_Mounted):
     """A shock absorber; contexts are those of the diagram that holds its system.
 
     Attributes:
         system: `ShockAbsorber` of this gear, or of all.
         which: its place in that system.
+        parameters: `ShockAbsorberParameters`.
     """
-
-    system: Any
-    which: int
-
-    @property
-    def parameters(self) -> ShockAbsorberParameters:
-        """Of its law."""
-        return self.system.parameters[self.which]
 
     def force(self, root: Context) -> Any:
         """N, positive apart."""
-        return self.system.GetOutputPort("force").Eval(self._own(root))[self.which]
+        return self._output(root, "force")[0]
 
     def motion(self, root: Context) -> Any:
         """(2,) stroke, m, and rate, m/s."""
-        found = self.system.GetInputPort("strut_state").Eval(self._own(root))
-        return found.reshape(-1, 2)[self.which]
+        port = self.system.GetInputPort("strut_state")
+        return self._share(port.Eval(self._own(root)))
 
     def set_tunables(self, root: Context, **given: Any) -> None:
         """Sets numeric parameters, see `ShockAbsorber.set_tunables`; others stay."""
-        own = self.system.GetMyMutableContextFromRoot(root)
-        self.system.set_tunables(own, which=self.which, **given)
+        self.system.set_tunables(self._mutable(root), which=self.which, **given)
 
     def tunables(self, root: Context) -> Any:
         """(7,) `ShockAbsorberTunables`."""
-        values = self._own(root).get_numeric_parameter(0).CopyToVector()
-        return values.reshape(len(self.system.parameters), -1)[self.which]
-
-    def _own(self, root: Context) -> Context:
-        return self.system.GetMyContextFromRoot(root)
+        return self._tunables(root)
 
 
 Mounted = Mapping[str, MountedTire] | Mapping[str, MountedShockAbsorber]
