@@ -17,11 +17,12 @@ the quadrilateral are sampled at its two Gauss points and at three places across
 shear at 2 x 2 points; those of the triangle at its three points of integration.
 Transverse shear is sampled along the edges, at two points each, where any quadratic
 deflection is met exactly, that of the quadrilateral also as a mean over its middle
-(MITC8). Uniform parts are added such that uniform stress does the work that it does on
-the strains of the displacements. There is no spurious mode; with straight edges and
-mid-sides in their middle uniform strains and curvatures are exact on any shape (patch
-test). Plates converge with the fourth order at any thickness; curved triangles are
-stiffer than quadrilaterals on coarse meshes.
+(MITC8); on an edge without its mid-side only the mean of both counts. Uniform parts are
+added such that uniform stress does the work that it does on the strains of the
+displacements. There is no spurious mode; with straight edges and mid-sides in their
+middle uniform strains and curvatures are exact on any shape (patch test). Plates
+converge with the fourth order at any thickness; curved triangles are stiffer than
+quadrilaterals on coarse meshes.
 
 References: Huang and Hinton, A new nine node degenerated shell element with enhanced
 membrane and shear interpolation, IJNME 22 (1986); Park and Stanley, A curved C0 shell

@@ -49,6 +49,7 @@ class Surface:
         points, weights: (q, 2), (q,) rule of integration.
         strains: per component 11, 22, 12 samples (s, 2) and powers.
         edges: (m, 2) points where shear is taken, towards: (m, 2) natural directions.
+        sides: (m,) edge that each lies on, -1: none.
         means: (s, m) samples of shear from these.
         shears: powers of both components of shear; together as many as samples.
         mean_shear: the mean shear is that of the displacements.
@@ -56,6 +57,7 @@ class Surface:
         even: element axes lie evenly about both tangents.
         whole: (w, 2) nodes of the interpolation where mid-sides are left out, and
         follow: (w, n) how all of these follow those that are there; None: all are.
+        straight: edges without their mid-side.
     """
 
     nodes: Float64
@@ -66,6 +68,7 @@ class Surface:
     strains: tuple[tuple[Float64, Powers], ...]
     edges: Float64
     towards: Float64
+    sides: tuple[int, ...]
     means: Float64
     shears: tuple[Powers, Powers]
     mean_shear: bool
@@ -74,9 +77,13 @@ class Surface:
     even: bool
     whole: Float64 | None = None
     follow: Float64 | None = None
+    straight: frozenset[int] = frozenset()
 
     def without(self, present: Sequence[bool]) -> "Surface":
         """The surface without some of its mid-sides: their edges stay straight.
+
+        Where rotations turn linearly along an edge that cannot bend only the mean of
+        its shear is meant, else it locks (Bathe and Dvorkin's tying at the middle).
 
         Args:
             present: for each mid-side, whether it is there.
@@ -88,7 +95,12 @@ class Surface:
             follow[count + k] = 0.0
             follow[count + k, [k, (k + 1) % count]] = 0.5
         return replace(
-            self, nodes=self.nodes[kept], whole=self.nodes, follow=follow[:, kept]
+            self,
+            nodes=self.nodes[kept],
+            whole=self.nodes,
+            follow=follow[:, kept],
+            mean_shear=self.mean_shear and all(present),
+            straight=frozenset(np.flatnonzero(~np.asarray(present, bool)).tolist()),
         )
 
     @property
@@ -136,7 +148,11 @@ class Surface:
             ],
             axis=1,
         )
-        return np.stack(rows, axis=1) @ np.linalg.inv(self.means @ there) @ self.means
+        same = np.equal.outer(self.sides, self.sides)
+        whole = ~np.isin(self.sides, list(self.straight))
+        same[whole] = np.eye(len(same))[whole]
+        samples = self.means @ (same / same.sum(axis=1, keepdims=True))
+        return np.stack(rows, axis=1) @ np.linalg.inv(self.means @ there) @ samples
 
 
 def _products(first: int, second: int) -> Powers:
@@ -168,6 +184,7 @@ QUAD8 = Surface(
         [_grid((-1.0, 1.0, 0.0), _TWO)[:, ::-1], _grid((-1.0, 1.0, 0.0), _TWO)]
     ),
     towards=np.repeat([[1.0, 0.0], [0.0, 1.0]], 6, axis=0),
+    sides=(0, 0, 2, 2, -1, -1, 3, 3, 1, 1, -1, -1),
     means=np.kron(np.eye(2), _FOUR_AND_MEAN),
     shears=((*_products(1, 1), (0, 2)), (*_products(1, 1), (2, 0))),
     mean_shear=False,
@@ -191,6 +208,7 @@ TRIA6 = Surface(
     strains=((_INNER, _P1),) * 3,
     edges=np.concatenate([_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)]),
     towards=np.concatenate([_ALONG, _ALONG]),
+    sides=(0, 1, 2, 0, 1, 2),
     means=np.eye(6),
     shears=(_P1, _P1),
     mean_shear=True,

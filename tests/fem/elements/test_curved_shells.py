@@ -207,7 +207,10 @@ def test_impossible_elements_are_refused(model, text, message):
 
 @pytest.mark.parametrize("grids", ["5,,+\n+,7,8", ",6,+\n+,,", ",,+\n+,,"])
 def test_a_mid_side_left_out_follows_its_corners(model, grids):
-    """On a plane the element with that mid-side tied to the mean of its corners."""
+    """In its plane the element with that mid-side tied to the mean of its corners.
+
+    Its bending is another: shear would lock with rotations that are linear on edges.
+    """
     flat = "".join(
         f"GRID,{line.split(',')[1]},,{','.join(line.split(',')[3:5])},0.\n"
         for line in GRIDS.splitlines()
@@ -219,8 +222,9 @@ def test_a_mid_side_left_out_follows_its_corners(model, grids):
     flat = flat.replace("GRID,9,,.56,.47,0.\n", "")
     shell = "PARAM,K6ROT,0.\nPSHELL,1,1,.02,1,,1\n" + STEEL
     given = grids.replace("+\n+,", "").split(",")
-    (whole,) = model(flat + element("CQUAD8") + shell).blocks
-    made = model(flat + f"CQUAD8,1,1,1,2,3,4,{grids},,,,,20.,.05\n" + shell)
+    (whole,) = model(flat + element("CQUAD8", zoffs=0.0) + shell).blocks
+    made_card = f"CQUAD8,1,1,1,2,3,4,{grids},,,,,20.\n"
+    made = model(flat + made_card + shell)
     (part,) = made.blocks
     follow = np.zeros((8, 4 + sum(map(bool, given))))
     follow[:4, :4] = np.eye(4)
@@ -233,9 +237,57 @@ def test_a_mid_side_left_out_follows_its_corners(model, grids):
     tie = np.kron(follow, np.eye(6))
     expected = tie.T @ whole.stiffness()[0] @ tie
     size = np.abs(expected).max()
-    np.testing.assert_allclose(part.stiffness()[0], expected, atol=1e-10 * size)
+    plane = np.ix_(*2 * [np.arange(len(expected)) % 6 < 2])
+    found = part.stiffness()[0]
+    np.testing.assert_allclose(found[plane], expected[plane], atol=1e-10 * size)
+    (held,) = model(flat + made_card + shell.replace("K6ROT,0.", "K6ROT,100.")).blocks
+    value = np.linalg.eigvalsh(held.stiffness()[0])
+    assert np.abs(value[:6]).max() < 1e-11 * value[-1] < value[6] * 1e-2
     total = part.mass(coupled=False)[0][::6, ::6].sum()
     assert total == pytest.approx(whole.mass(coupled=False)[0][::6, ::6].sum())
+
+
+@pytest.mark.parametrize("left_out", [(0,), (0, 2), (1, 3), (0, 1, 2, 3)])
+@cards
+def test_plates_without_some_mid_sides_do_not_lock(model, card, left_out):
+    """A thin strip under a moment at its end: M L^2 / (2 E I), M = 1, no Poisson.
+
+    A mid-side on one of two sides only bends and twists the elements: 6 % in four.
+    """
+    corners, width, thick = 4 if card == "CQUAD8" else 3, 1.0, 0.01
+    place: dict[tuple[float, float], int] = {}
+
+    def grid(x: float, y: float) -> int:
+        return place.setdefault((x, y), len(place) + 1)
+
+    elements = []
+    for i in range(4):
+        square = [(i, 0.0), (i + 1, 0.0), (i + 1, width), (i, width)]
+        halves = [square] if corners == 4 else [square[:3], square[2:] + square[:1]]
+        for tip in halves:
+            sides = [(np.array(a) + b) / 2 for a, b in zip(tip, [*tip[1:], tip[0]])]
+            ids = [grid(*map(float, p)) for p in tip]
+            # Edges along x count as 0 and 2, those along y as 1 and 3.
+            for p in sides:
+                number = 0 if p[1] == 0.0 else 2 if p[1] == width else 1
+                number = 3 if number == 1 and p[0] == 0.0 else number
+                ids.append("" if number in left_out else grid(*map(float, p)))
+            head, tail = ids[:6], ids[6:]
+            text = f"{card},{len(elements) + 1},1,{','.join(map(str, head))}"
+            elements.append(text + (f"\n,{','.join(map(str, tail))}" if tail else ""))
+    deck = "".join(f"GRID,{n},,{x},{y},0.\n" for (x, y), n in place.items())
+    deck += "\n".join(elements)
+    deck += f"\nPSHELL,1,1,{thick},1,,1\nMAT1,1,1.+7,,0.\n"
+    stiffness = model(deck).matrices.stiffness.toarray()
+    held = [
+        6 * (n - 1) + k for (x, _), n in place.items() if x == 0.0 for k in range(6)
+    ]
+    free = np.setdiff1d(np.arange(len(stiffness)), held)
+    load, u = np.zeros((2, len(stiffness)))
+    load[[6 * (place[4.0, y] - 1) + 4 for y in (0.0, width)]] = -0.5
+    u[free] = np.linalg.solve(stiffness[np.ix_(free, free)], load[free])
+    exact = 4.0**2 / 2.0 / (1e7 * width * thick**3 / 12.0)
+    assert u[6 * (place[4.0, 0.0] - 1) + 2] == pytest.approx(exact, rel=0.07)
 
 
 def test_triangles_without_mid_sides_are_sound(model):
