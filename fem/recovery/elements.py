@@ -93,7 +93,7 @@ class ElementTable:
             linear = linear + (self.rate @ (rate * u).T).T
         if self.loss is not None:
             linear = linear + 1j * (self.loss @ u.T).T
-        return linear
+        return np.asarray(linear, np.complex128)
 
     def of(self, displacement: Float64) -> Float64:
         """Results (e, c) of displacements (g,), or (t, e, c) of (g, t), at rest.
