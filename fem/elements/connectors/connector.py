@@ -11,8 +11,8 @@ So does a commercial solver's weld: a lap joint of L = D moves as these springs 
 six digits, where the beam's bending by its shear force, L³/12 E I, and the shear area
 0.9 A would add 62 %. Where the effective length L_e differs from L, E and G are
 multiplied by L / L_e (guide: L within 0.2 D and 5 D; SPOT: the mean thickness), so that
-welds of no length have stiffness, too. Welds have no mass: in a free vibration test of
-the same solver's the sheets alone balance the load to five digits.
+welds of no length have stiffness, too. Welds have no mass: in a frequency response
+of the same solver, of a free body, the sheets alone balance the load to five digits.
 """
 
 from dataclasses import dataclass

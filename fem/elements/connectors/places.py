@@ -7,7 +7,7 @@ diameter beside the surface pierces nothing.
 One point P for both sides pierces surfaces that are not parallel in the middle of two
 ways: A in the middle of its closest point to P, and that to the point of B closest to
 P; B likewise. The guide does not say so; a commercial solver's displacements of its
-feet between a warped and a plane surface show it (to 1e-4 of the gap).
+feet show it: to 1e-6 of the gap on a plane surface, 2e-3 on a warped one across.
 """
 
 from dataclasses import dataclass
