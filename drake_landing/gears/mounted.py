@@ -129,10 +129,14 @@ def each_of(builder: DiagramBuilder, mounted: Mounted, port: str) -> dict[str, A
     if len(systems) == len(mounted):
         return {name: one.system.GetOutputPort(port) for name, one in mounted.items()}
     ((title, system),) = systems.items()
-    whole = system.GetOutputPort(port)
-    cut = Demultiplexer([whole.size() // len(mounted)] * len(mounted))
-    builder.AddNamedSystem(f"each {port} of {title}", cut)
-    builder.Connect(whole, cut.get_input_port())
+    named = f"each {port} of {title}"
+    if builder.HasSubsystemNamed(named):
+        cut: Any = builder.GetSubsystemByName(named)
+    else:
+        whole = system.GetOutputPort(port)
+        cut = Demultiplexer([whole.size() // len(mounted)] * len(mounted))
+        builder.AddNamedSystem(named, cut)
+        builder.Connect(whole, cut.get_input_port())
     return {name: cut.get_output_port(i) for i, name in enumerate(mounted)}
 
 
