@@ -22,7 +22,7 @@ def cord2(cid: int, kind: str, rid: int, abc) -> dict:
 
 def grids(*rows) -> pd.DataFrame:
     """Rows (id, cp, x1, x2, x3)."""
-    return pd.DataFrame([(*row, 0, "") for row in rows], columns=GRID)
+    return pd.DataFrame([(*row, 0, "", 0) for row in rows], columns=GRID)
 
 
 def curvilinear(kind: str, local: np.ndarray) -> np.ndarray:
