@@ -68,6 +68,16 @@ def fastener(columns: Columns, problems: Problems) -> None:
             )
 
 
+def diameter(columns: Columns, problems: Problems, card: str) -> None:
+    """A fastener or a weld is round, and has a size."""
+    for row, d in enumerate(columns["d"]):
+        if not d > 0.0:
+            problems.append(
+                f"{_place(columns, row)}: {card} {columns['pid'][row]} field D: found "
+                f"{d:g}, expected a positive number"
+            )
+
+
 def beam(columns: Columns, problems: Problems) -> None:
     """OFFT is a name; a real number there is BIT, which belongs to p-elements.
 

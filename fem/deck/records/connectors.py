@@ -1,5 +1,7 @@
 """Connectors: axial bushings, gaps, general elements."""
 
+from functools import partial
+
 from fem.deck import conversions
 from fem.deck.cards import finish, general_element, welds
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
@@ -105,6 +107,7 @@ RECORDS = (
         group=_GROUP,
         fields="pid:i d:f[L] mcid:i=-1>CORD mflag:i=0 kt1:f=0.[M] kt2:f=0.[M] "
         "kt3:f=0.[M] kr1:f=0.[ML2] kr2:f=0.[ML2] kr3:f=0.[ML2] mass:f=0.[M] ge:f=0.",
+        finish=partial(finish.diameter, card="PFAST"),
         ids="own",
     ),
     # ida and idb by form: properties, elements; gas, gbs: corner grids (GRIDID).
@@ -125,6 +128,7 @@ RECORDS = (
         name="PWELD",
         group=_GROUP,
         fields="pid:i mid:i>MAT1 d:f[L] - - mset:s=OFF - type:s= ldmin:f=.2 ldmax:f=5.",
+        finish=partial(finish.diameter, card="PWELD"),
         ids="own",
     ),
 )

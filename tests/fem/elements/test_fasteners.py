@@ -197,6 +197,8 @@ def test_grids_of_fasteners_follow_the_surface(model):
         ("CWELD,90,9,80,PATCH,,,,,+\n+,1,2", "expected one of PARTPAT"),
         ("CWELD,90,9,80,GRIDID,,,QQ,,+\n+,1,2", "expected three corner grids"),
         ("CWELD,90,7,,ALIGN,5,15", "PWELD 7 is not defined"),
+        ("PFAST,7,-.3", "PFAST 7 field D: found -0.3, expected a positive number"),
+        ("PWELD,7,1,0.", "PWELD 7 field D: found 0, expected a positive number"),
     ],
 )
 def test_what_a_connector_lacks_is_said(model, card, message):
