@@ -12,6 +12,8 @@ from scipy.spatial import ConvexHull, QhullError
 from fem.arrays import Float64, Int64
 
 DIRECTIONS = 64
+_ANGLES = 2.0 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
+_DIRECTIONS = np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)])
 _FLAT = 1e-9  # of the range: no extent of its own
 
 
@@ -37,14 +39,11 @@ def hull_rows(points: Float64) -> Int64:
         return usable[:1]
     scaled = (p - low) / np.where(flat, 1.0, size)
     if not flat.any() and len(p) > 2:
+        reached = np.unique((_DIRECTIONS @ scaled.T).argmax(axis=1))
         try:
-            around = ConvexHull(scaled).vertices
+            return usable[reached[ConvexHull(scaled[reached]).vertices]]
         except QhullError:  # all on one line
-            around = None
-        if around is not None:
-            angle = 2.0 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
-            reach = scaled[around] @ np.stack([np.cos(angle), np.sin(angle)])
-            return usable[around[np.unique(reach.argmax(axis=0))]]
+            pass
     along = scaled @ _direction(scaled)
     return usable[np.unique([along.argmin(), along.argmax()])]
 
