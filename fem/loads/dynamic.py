@@ -9,6 +9,7 @@ import pandas as pd
 import scipy.sparse as sp
 
 from fem.arrays import Float64
+from fem.constraints.spc import freedoms
 from fem.deck.case_control import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
@@ -229,6 +230,40 @@ def _shifted(row: pd.Series) -> TimeFunction:
         return Scaled(table, float(row["x1"]), float(row["x2"]))
     table = Table(x=row["xs"], y=row["ys"], flat=bool(row["extrap"]))
     return Scaled(table, float(row["x1"]), float(row["x2"]))
+
+
+# Kinds of enforced motion: which derivative of the displacement is given.
+MOTIONS = {"DISP": 0, "VELO": 1, "ACCE": 2}
+
+
+def motion_of(
+    deck: "Deck", points: Points, subcase: Subcase, name: str, row: pd.Series
+) -> Float64:
+    """Motion (size,) of constrained freedoms that EXCITEID stands for: SPCD cards.
+
+    Without any of that number (or of that LSEQ's), the SPC cards of that number with
+    values, the older way.
+
+    Raises:
+        InputError: there are none.
+    """
+    excite = int(row["exciteid"])
+    sets = [excite]
+    if subcase.loadset:
+        lseq = deck.cards["LSEQ"]
+        chosen = lseq[(lseq["sid"] == subcase.loadset) & (lseq["exciteid"] == excite)]
+        sets += [int(lid) for lid in chosen["lid"] if lid]
+    total = np.zeros(points.size)
+    for card in ("SPCD", "SPC"):
+        rows = deck.cards[card]
+        rows = rows[rows["sid"].isin(sets) & (rows["d"] != 0.0)]
+        if not rows.empty:
+            np.add.at(total, *freedoms(rows, card, points))
+            return total
+    raise InputError(
+        f"{where(name, row)}: TYPE {row['type']}: EXCITEID {excite} has no SPCD with "
+        "a value; expected the freedoms that are moved"
+    )
 
 
 def pattern_of(

@@ -50,7 +50,7 @@ def residual_vectors(
     loads = loads[:, np.any(loads != 0.0, axis=0)]
     if loads.shape[1] == 0:
         return modes
-    static = _static_response(stiffness, mass, modes, loads, solver)
+    static = static_response(stiffness, mass, modes, loads, solver=solver)
     phi = modes.shape
     basis = orthonormal_rest(static, phi, mass)
     if basis.shape[1] == 0:
@@ -66,14 +66,22 @@ def residual_vectors(
     )
 
 
-def _static_response(
+def static_response(
     stiffness: sp.csr_matrix,
     mass: sp.csr_matrix,
     modes: Modes,
     loads: Float64,
-    solver: SolverName | None,
+    *,
+    solver: SolverName | None = None,
 ) -> Float64:
-    """Response to loads, for a free structure balanced by its inertia."""
+    """(f, k) response to loads (f, k), for a free structure balanced by its inertia.
+
+    Args:
+        stiffness, mass: (f, f) K and M.
+        modes: all rigid-body modes must be among them.
+        loads: (f, k).
+        solver: as in `fem.algebra.linear_solver.factorize`.
+    """
     if modes.rigid == 0:
         with factorize(stiffness, solver=solver) as factor:
             return factor.solve(loads)

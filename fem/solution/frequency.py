@@ -2,6 +2,8 @@
 
 Structural damping is used as it is (PARAM G, GE); viscous damping of elements and
 B2GG; in modes SDAMPING as well, viscous, or structural with PARAM KDAMP -1.
+Enforced motion is a load (`enforced_motion.py`); modal damping acts on what moves
+relative to it.
 """
 
 from dataclasses import dataclass, replace
@@ -28,6 +30,7 @@ from fem.recovery.elements import element_tables
 from fem.recovery.harmonic import harmonic_table
 from fem.response.modal import residual_vectors
 from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.enforced_motion import BaseMotion, base_motion
 from fem.solution.frequency_dependence import FrequencyDependence
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
@@ -128,15 +131,17 @@ def _direct(
 
     def run(model: Structure) -> Complex128:
         reduced = analysis_model(model, solver=options.solver)
-        pattern = reduced.load(excitation.pattern)
+        base = base_motion(model, excitation)
+        load = _load(model, reduced, hertz, excitation, base)
         u = direct_response(
             _matrices(model, reduced),
             hertz,
-            lambda k: pattern @ excitation.factor[:, k],
+            lambda k: load[:, k],
             solver=options.solver,
             progress=options.console.progress("direct frequency response"),
         )
-        return (reduced.expand @ u.T).T
+        u_g = (reduced.expand @ u.T).T
+        return u_g if base is None else u_g + base.displacement
 
     try:
         return run(model)
@@ -147,6 +152,21 @@ def _direct(
         for notice in notices:
             options.console.say(f"notice: {notice}")
         return run(held)
+
+
+def _load(
+    model: Structure,
+    reduced: AnalysisModel,
+    hertz: Float64,
+    excitation: HarmonicExcitation,
+    base: BaseMotion | None,
+) -> Complex128:
+    """(n, f) loads on the analysis set, what moves the base among them."""
+    load = reduced.load(excitation.pattern) @ excitation.factor
+    if base is None:
+        return load
+    rate = 2j * np.pi * hertz[:, None]
+    return load - reduced.expand.T @ _residual(model, rate, base.displacement).T
 
 
 _RESONANCE = (
@@ -185,6 +205,10 @@ def _modal(
     """(f, g) displacements."""
     reduced, modes = basis.reduced, basis.modes
     pattern = reduced.load(excitation.pattern)
+    base = base_motion(model, excitation)
+    if base is not None:
+        base = base.carried(model, reduced, modes, solver=options.solver)
+        pattern = sp.csr_matrix(sp.hstack([pattern, base.inertia(model, reduced)]))
     asked = model.subcase.resvec or str(model.deck.param("RESVEC"))
     if not asked.upper().startswith("NO"):
         count = modes.count
@@ -197,13 +221,14 @@ def _modal(
             modes,
             _matrices(model, reduced),
             hertz,
-            modes.shape.T @ (pattern @ excitation.factor),
+            modes.shape.T @ _load(model, reduced, hertz, excitation, base),
             ratio=modal_ratios(model.deck, model.subcase, modes.frequency_hz),
             hysteretic=int(model.deck.number("KDAMP")) < 0,
         )
     except np.linalg.LinAlgError:
         raise InputError(f"{model.deck.path}: {_RESONANCE}") from None
-    return amplitude @ (reduced.expand @ modes.shape).T
+    u_g = amplitude @ (reduced.expand @ modes.shape).T
+    return u_g if base is None else u_g + base.displacement
 
 
 @dataclass(frozen=True)

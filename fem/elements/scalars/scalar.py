@@ -4,7 +4,7 @@ They act on freedoms of the displacement frames; an absent grid is ground. The m
 of each is c [[1, -1], [-1, 1]].
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,11 +51,19 @@ class Springs(DenseBlock):
 
     def strains(self) -> Recovery:
         """Stress coefficient times elongation, as NX has it."""
-        return self._recovery(SPRING[2], self.s)
+        elongation = self._recovery(SPRING[2], self.s)
+        return replace(elongation, loss=None)
 
     def _recovery(self, column: str, factor: Float64) -> Recovery:
+        """Elongation times factors (e,); in harmonic motion with what GE adds."""
         matrix = factor[:, None, None] * _PAIR[:1]
-        return Recovery(table=self.card, columns=(column,), matrix=matrix, id=self.id)
+        return Recovery(
+            table=self.card,
+            columns=(column,),
+            matrix=matrix,
+            loss=self.ge[:, None, None] * matrix if self.ge.any() else None,
+            id=self.id,
+        )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,86 @@
+"""Harmonic motion of constrained freedoms as a load on the free ones.
+
+With u = T u_f + Ψ s(f), where Ψ moves the constrained freedoms and whatever goes along,
+
+    Tᵀ Z T u_f = Tᵀ (P - Z Ψ s),  Z = -ω² M + iω B + (1 + iG) K + i K4.
+
+Directly, Ψ leaves the free freedoms at rest. In modes, Ψ is the static response to the
+motion: what modes with held constraints are slow to represent is in it, and u_f is the
+motion relative to it.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+import scipy.sparse as sp
+
+from fem.algebra.linear_solver import SolverName
+from fem.algebra.modes import Modes
+from fem.errors import InputError
+from fem.loads.harmonic import HarmonicExcitation
+from fem.model.structure import Structure
+from fem.response.modal import static_response
+from fem.solution.analysis_model import AnalysisModel
+
+Complex128 = npt.NDArray[np.complex128]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BaseMotion:
+    """Motions Ψ s(f) of a model.
+
+    Attributes:
+        shape: (g, m) sparse, Ψ.
+        factor: (m, f) s, displacements.
+    """
+
+    shape: sp.csr_matrix
+    factor: Complex128
+
+    @property
+    def displacement(self) -> Complex128:
+        """(f, g)."""
+        return (self.shape @ self.factor).T
+
+    def carried(
+        self,
+        model: Structure,
+        reduced: AnalysisModel,
+        modes: Modes,
+        *,
+        solver: SolverName | None = None,
+    ) -> "BaseMotion":
+        """The same with the static response of the free freedoms in Ψ."""
+        force = reduced.load(sp.csr_matrix(model.matrices.stiffness @ self.shape))
+        along = static_response(
+            reduced.stiffness, reduced.mass, modes, -force.toarray(), solver=solver
+        )
+        shape = sp.csr_matrix(self.shape + reduced.expand @ sp.csr_matrix(along))
+        return BaseMotion(shape=shape, factor=self.factor)
+
+    def inertia(self, model: Structure, reduced: AnalysisModel) -> sp.csr_matrix:
+        """(n, m) patterns of the loads that inertia of the motion is."""
+        return reduced.load(sp.csr_matrix(model.matrices.mass @ self.shape))
+
+
+def base_motion(model: Structure, excitation: HarmonicExcitation) -> BaseMotion | None:
+    """Motion of the constrained freedoms, the free ones at rest; None: there is none.
+
+    Raises:
+        InputError: freedoms are moved that no SPC holds.
+    """
+    motion, elimination = excitation.motion, model.elimination
+    moved = np.unique(motion.nonzero()[0])
+    if not len(moved):
+        return None
+    loose = np.setdiff1d(moved, elimination.s)
+    if len(loose):
+        raise InputError(
+            f"{model.deck.path}: subcase {model.subcase.id}: SPCD moves "
+            f"{model.points.label(int(dof))}, which no SPC holds; expected it in the "
+            f"SPC set {model.subcase.spc or '(none is selected)'}"
+            for dof in loose[:20]
+        )
+    shape = sp.csr_matrix(elimination.S @ motion[elimination.s])
+    return BaseMotion(shape=shape, factor=excitation.motion_factor)
