@@ -18,6 +18,9 @@ _MOST_UNREAD = 20  # lines that are listed
 _SEPARATOR = re.compile(r"\s*,\s*|\s+")
 _MNEMONIC = re.compile(r"(?!THRU|BY|EXCEPT|ENDT|SKIP)[A-Z][A-Z0-9]*$")
 _LABELLED = frozenset({"MONPNT1", "MONPNT3"})  # the rest of their first line is a text
+_EQUATION = "DEQATN"  # text from its third field on, with commas
+# A line whose fields end with commas although its name does not.
+_LATE_COMMA = re.compile(r"([A-Z][A-Z0-9]*)\s+([^\s,]+\s*,.*)")
 _NAME = re.compile(r"[A-Z][A-Z0-9_]{0,15}$")
 
 
@@ -138,6 +141,10 @@ class _Reader:
         if self.goes_on and text.lstrip()[:1].isdigit() and "," in text[:10]:
             text = f",{text.lstrip()}"
         self.goes_on = "," in text[:10] and text.rstrip()[-1:] == ","
+        card = self.card
+        if card is not None and card.name == _EQUATION and text[0] in " +*,":
+            card.fields.append(_more_of_equation(text))
+            return
         head, data, marker, large = split_line(text)
         width = 4 if large else 8
         # A free-field line with more fields goes on as if it were continued.
@@ -201,9 +208,13 @@ class _Reader:
 
 def split_line(text: str) -> tuple[str, list[str], str, bool]:
     """Name or continuation mark, data fields, marker for what follows, large field?"""
+    head = text[:8].strip()
+    if head.split(",")[0].rstrip("* ") == _EQUATION:
+        return _EQUATION, _equation(text), "", False
     if "," in text[:10]:  # as Nastran recognises free fields
         return _split_free(text)
-    head = text[:8].strip()
+    if "," in text[8:16] and (late := _LATE_COMMA.fullmatch(text.strip())):
+        return _split_free(f"{late[1]},{late[2]}")
     if head[-1:] == "*" or head[:1] == "*":
         data = [text[i : i + 16].strip() for i in (8, 24, 40, 56)]
         large = True
@@ -217,6 +228,24 @@ def split_line(text: str) -> tuple[str, list[str], str, bool]:
     while data and not data[-1]:
         data.pop()
     return head, data, marker, large
+
+
+def _equation(text: str) -> list[str]:
+    """Id and first line of a DEQATN."""
+    if "," in text[:10]:
+        _, number, rest = (*text.split(",", 2), "", "")[:3]
+        return [number.strip(), rest.strip()]
+    if text[:8].rstrip()[-1:] == "*":
+        return [text[8:24].strip(), text[24:72].strip()]
+    return [text[8:16].strip(), text[16:72].strip()]
+
+
+def _more_of_equation(text: str) -> str:
+    """What a continuation adds to a DEQATN."""
+    start, comma, rest = text[:9].partition(",")
+    if comma and not start.strip(" +*"):
+        return f"{rest}{text[9:]}".strip()
+    return text[8:72].strip()
 
 
 def _split_free(text: str) -> tuple[str, list[str], str, bool]:

@@ -89,7 +89,9 @@ def test_blanks_separate_free_fields_too():
 
 def test_a_comma_beyond_the_first_ten_columns_makes_no_free_field():
     (fields,) = cards("DEQATN  5       F(A,B)= -B/A\n        +A,B")
-    assert fields[2] == "F(A,B)="
+    assert fields[2:] == ["F(A,B)= -B/A", "+A,B"]
+    (fields,) = cards("DRESP1  5       LABEL   A,B     C")
+    assert fields == ["DRESP1", "5", "LABEL", "A,B", "C"]
 
 
 def test_replication_copies_and_adds():

@@ -286,6 +286,16 @@ def test_tables_that_end_before_the_run(solve, table, delay, given):
     assert not given or f"it gives {given}" in said[0]
 
 
+# 8 x 2.5 = 20, and 4e7.
+_ARGUMENTS = """\
+,DESVAR,30
+,DTABLE,TWO
+DTABLE,TWO,2.5
+DEQATN,60,F(A,B)=A*B
+DEQATN  61      F(A,B)=SQRT(A*2.)*
+        1.E7+0.*B"""
+
+
 @pytest.mark.parametrize(
     ("relations", "moved"),
     [
@@ -296,6 +306,8 @@ def test_tables_that_end_before_the_run(solve, table, delay, given):
         ("DLINK,1,31,1.,2.,30,.5\nDVPREL1,40,PROD,7,A\n,31,1.", 4e-4 / 9.0),
         ("DVMREL1,40,MAT1,3,E\n,30,1.+7", 2e-4 / 8.0),
         ("DVGRID,30,12,,1.,1.", 2e-4),
+        (f"DVPREL2,40,PROD,7,A,,,60\n{_ARGUMENTS}", 2e-5),
+        (f"DVMREL2,40,MAT1,3,E,,,61\n{_ARGUMENTS}", 2e-4 / 4.0),
     ],
 )
 def test_design_variables_begin_with_their_values(solve, relations, moved):
@@ -328,7 +340,11 @@ def test_design_values_reach_sections_plies_and_shells(solve):
         ("DVPREL1,40,PROD,7,Q\n,30,1.", "field Q of PROD is not known"),
         ("DVPREL1,40,PROD,8,A\n,30,1.", "PROD 8 is not in the deck"),
         ("DVPREL1,40,PROD,7,A\n,31,1.", "DESVAR 31 is not defined"),
-        ("DVPREL2,40,PROD,7,A,,,60", "by an equation, which is not followed"),
+        ("DVPREL2,40,PROD,7,A,,,60", "DEQATN 60 is not defined"),
+        (
+            "DVPREL2,40,PROD,7,A,,,60\n,DESVAR,31\nDEQATN,60,F(A)=A",
+            "DESVAR 31 is not defined",
+        ),
     ],
 )
 def test_design_relations_that_cannot_be_followed_are_refused(solve, relation, words):
