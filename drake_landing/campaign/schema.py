@@ -13,6 +13,7 @@ Axes with values are combined with each other; those with a distribution are sam
 together (latin hypercube), `samples` times for every combination.
 """
 
+import math
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -31,6 +32,7 @@ from drake_landing.case.section import Section, number
 from fem.errors import nearest
 
 Value = bool | int | float | str
+MOST = 200_000  # cases; more would be described for an hour before the first flies
 _PATH = r"^[A-Za-z_][\w*]*(\.[\w*-]+)+$"
 
 
@@ -139,6 +141,15 @@ Axis = Annotated[
 ]
 
 
+def _count(axis: Axis) -> int:
+    """Values that are combined with those of other axes."""
+    if isinstance(axis, Range):
+        return axis.count
+    if isinstance(axis, Distribution):
+        return 1
+    return len(axis.scale if isinstance(axis, Scale) else axis)
+
+
 class Confirm(Section):
     """The direct transient of chosen landings."""
 
@@ -240,4 +251,12 @@ class Campaign(Section):
             )
         if not self.axes and self.table is None:
             raise ValueError("axes: found none, expected at least one, or a table")
+        counts = [_count(axis) for axis in self.axes.values()]
+        cases = math.prod(counts) * max(self.samples, 1)
+        if cases > MOST:
+            factors = [f"{n}" for n in [*counts, self.samples] if n > 1]
+            raise ValueError(
+                f"axes: found {' x '.join(factors)} = {cases} cases, expected at most "
+                f"{MOST}"
+            )
         return self

@@ -146,6 +146,16 @@ def test_design_is_product_times_samples_and_repeats(tmp_path: Path) -> None:
             },
             "nothing of the distribution",
         ),
+        (
+            {
+                "axes": {
+                    "scenario.sink_rate": {"from": 1.0, "to": 3.0, "count": 3},
+                    "scenario.pitch": {"distribution": "norm"},
+                },
+                "samples": 100_000,
+            },
+            "3 x 100000 = 300000 cases, expected at most 200000",
+        ),
     ],
 )
 def test_wrong_axes_are_refused(
