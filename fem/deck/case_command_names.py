@@ -60,7 +60,6 @@ MODEL_REFUSED = {
 }
 # They change what a solution of the deck's own finds, and nothing here does it.
 SOLUTION_REFUSED = {
-    "P2G": "loads are given by load cards",
     "BCONTACT": "there is no contact",
     "BCSET": "there is no contact",
     "BGSET": "there is no glue",

@@ -198,12 +198,14 @@ def enforced(table: pd.DataFrame, units: Units, _: Context) -> None:
 def matrix(table: pd.DataFrame, units: Units, _: Context) -> None:
     """DMIG: mass, times a length for each rotation among row and column.
 
-    Scalar points count as translations.
+    Scalar points count as translations. Rectangular ones (form 9, P2G) are forces.
     """
-    rows = zip(table["values"], table["rowcs"], table["colcs"])
+    rows = zip(table["values"], table["rowcs"], table["colcs"], table["form"])
     scaled = [
-        np.asarray(v) * units.mass * units.length ** (_rotation(r) + _rotation(c))
-        for v, r, c in rows
+        np.asarray(v)
+        * units.mass
+        * units.length ** (_rotation(r) + (_rotation(c) if form != 9 else 1))
+        for v, r, c, form in rows
     ]
     table["values"] = listed(table, scaled)
 

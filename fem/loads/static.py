@@ -156,12 +156,14 @@ def enforced_displacements(
 ) -> tuple[Int64, Float64]:
     """Rows of the g-set and displacements that SPCD cards of a load set give.
 
-    The rows must be constrained by the SPC set of the subcase, too.
+    Cards of the selected set itself count as they are, beside a LOAD card of its number
+    (MSC's demonstration problem ab4). The rows must be constrained by the SPC set of
+    the subcase, too.
     """
     if not sid:
         return np.zeros(0, np.int64), np.zeros(0)
     total: dict[int, float] = {}
-    for number, factor in load_factors(deck, sid).items():
+    for number, factor in (load_factors(deck, sid) | {sid: 1.0}).items():
         rows = deck.cards["SPCD"]
         rows = rows[rows["sid"] == number]
         for dof, value in zip(*freedoms(rows, "SPCD", points)):

@@ -1,11 +1,13 @@
-"""Direct input of matrices: DMIG selected by K2GG, M2GG and B2GG in case control."""
+"""Direct input of matrices: DMIG selected by K2GG, M2GG, B2GG, P2G in case control."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 import scipy.sparse as sp
 
+from fem.arrays import Float64
 from fem.deck.references import table, where
 from fem.deck.values import Malformed, real
 from fem.errors import InputError, nearest
@@ -14,7 +16,7 @@ from fem.geometry.points import Points
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-SYMMETRIC = 6
+SYMMETRIC, RECTANGULAR = 6, 9
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,15 +79,7 @@ def dmig(deck: "Deck", points: Points, name: str) -> sp.csr_matrix:
     Raises:
         InputError: see `read_direct`.
     """
-    rows = table(deck, "DMIG")
-    chosen = rows[rows["name"].str.upper() == name.upper()] if len(rows) else rows
-    if chosen.empty:
-        known = sorted(rows["name"].tolist()) if len(rows) else []
-        raise InputError(
-            f"DMIG {name} is not in the deck; it has {known or 'none'}"
-            + nearest(name, known)
-        )
-    card = chosen.iloc[0]
+    card = _card(deck, name)
     place = where("DMIG", card)
     if int(card["form"]) != SYMMETRIC:
         raise InputError(f"{place}: form {card['form']}, expected 6 (symmetric)")
@@ -100,3 +94,57 @@ def dmig(deck: "Deck", points: Points, name: str) -> sp.csr_matrix:
     if abs(matrix - matrix.T).max() > 1e-12 * size:
         raise InputError(f"{place}: the two triangles differ, expected symmetry")
     return matrix
+
+
+def direct_load(deck: "Deck", points: Points, text: str, number: int) -> Float64:
+    """(g,) load of a subcase that P2G gives, with the factor PARAM CP2.
+
+    Args:
+        deck, points: the model.
+        text: of P2G, a name or a sum.
+        number: of the subcase among all, from 1: its column, where there are several.
+
+    Raises:
+        InputError: unknown names, freedoms that do not exist, no such column.
+    """
+    total = np.zeros(points.size)
+    for factor, name in combination(text):
+        card = _card(deck, name)
+        place = where("DMIG", card)
+        if int(card["form"]) != RECTANGULAR:
+            raise InputError(
+                f"{place}: form {card['form']}, expected 9 (rectangular) for P2G"
+            )
+        columns = np.asarray(card["colids"])
+        wanted = number if columns.max(initial=1) > 1 else 1
+        if wanted not in columns and len(columns):
+            raise InputError(
+                f"{place}: P2G = {name} in the subcase {number} of the deck: expected "
+                f"one column, or column {number} for it"
+            )
+        own = columns == wanted
+        try:
+            dof = points.dof(
+                np.asarray(card["rowids"])[own], np.asarray(card["rowcs"])[own]
+            )
+        except InputError as error:
+            raise InputError(f"{place}: {p}" for p in error.problems) from None
+        np.add.at(total, dof, factor * np.asarray(card["values"], float)[own])
+    return deck.number("CP2") * total
+
+
+def _card(deck: "Deck", name: str) -> pd.Series:
+    """The row of a DMIG.
+
+    Raises:
+        InputError: there is none.
+    """
+    rows = table(deck, "DMIG")
+    chosen = rows[rows["name"].str.upper() == name.upper()] if len(rows) else rows
+    if chosen.empty:
+        known = sorted(rows["name"].tolist()) if len(rows) else []
+        raise InputError(
+            f"DMIG {name} is not in the deck; it has {known or 'none'}"
+            + nearest(name, known)
+        )
+    return chosen.iloc[0]

@@ -171,6 +171,13 @@ def _refuse_what_is_not_carried_out(
         for case in cases
         if (case.statsub or case.preload) and number != 105
     ]
+    problems += [
+        f"{deck.path}: subcase {case.id}: P2G is not supported in SOL {number}: loads "
+        "that move are given by load cards; --ignore CASE goes on without it"
+        for number, cases in work
+        for case in cases
+        if case.p2g and number not in _WITHOUT_REDUCTION | {103}
+    ]
     if problems:
         raise InputError(dict.fromkeys(problems))
 

@@ -5,6 +5,8 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import qr
 
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.statics import inertia_relief, solve_static
@@ -16,6 +18,8 @@ from fem.files.hdf5 import ResultFile
 from fem.loads import enforced_displacements, static_element_loads, static_load
 from fem.loads.element_loads import ElementLoads, below_each_other
 from fem.loads.thermal import FreeMotions, free_motions, summed
+from fem.model.direct_input import direct_load
+from fem.model.mechanisms import describe
 from fem.model.structure import Structure, system_of
 from fem.model.weight import rigid_modes
 from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
@@ -173,34 +177,24 @@ def _loads(
             )
         if held.any():
             elimination = elimination.with_enforced(dof[held], value[held])
-        if not (subcase.load or motions or elimination.enforced.any()):
-            _at_rest(model, group, subcase, options)
+        if not (subcase.load or subcase.p2g or motions or elimination.enforced.any()):
+            options.console.say(
+                f"warning: subcase {subcase.id} selects no LOAD and enforces no "
+                "displacement, temperatures move nothing: all its results are zero"
+            )
         mass = model.with_subcase(subcase).matrices.mass if subcase.load else None
         load = (
             static_load(model.deck, model.points, subcase.load, mass)
             if subcase.load
             else np.zeros(model.points.size)
         )
+        if subcase.p2g:
+            ids = [case.id for case in model.deck.case_control]
+            number = ids.index(subcase.id) + 1
+            load += direct_load(model.deck, model.points, subcase.p2g, number)
         loads.append(load if motions is None else load + motions.load(model.points))
         eliminations.append(elimination)
     return np.stack(loads, axis=1), eliminations
-
-
-def _at_rest(
-    model: Structure, group: list[Subcase], subcase: Subcase, options: Options
-) -> None:
-    """A subcase without load is said; where no other of its group has one, refused.
-
-    Raises:
-        InputError: there is nothing to solve.
-    """
-    text = (
-        f"subcase {subcase.id} selects no LOAD and enforces no displacement, "
-        "temperatures move nothing"
-    )
-    if not any(other.load or other.temperature for other in group):
-        raise InputError(f"{model.deck.path}: {text}; there is nothing to solve")
-    options.console.say(f"warning: {text}: all its results are zero")
 
 
 def _solve(
@@ -218,9 +212,7 @@ def _solve(
 
     def solve() -> Float64:
         if relief >= 0:
-            return solve_static(
-                model.stiffness, p_f, solver=options.solver, threads=options.threads
-            )
+            return _without_mechanisms(model, p_f, options)
         support = model.free_rows(model.support_dof, "SUPORT") if relief == -1 else None
         if support is not None and not len(support):
             raise InputError(
@@ -244,6 +236,50 @@ def _solve(
     u_f = model.guarded(solve, dynamic=False, error=SingularMatrixError)
     u_g = T @ u_f + u_0
     return u_g, k_gg @ u_g - load - inertia
+
+
+def _without_mechanisms(model: Structure, p_f: Float64, options: Options) -> Float64:
+    """(f, c) displacements under loads (f, c).
+
+    With PARAM,BAILOUT,-1 motions without stiffness are held where no load acts along
+    them: forces and stresses do not depend on them. Displacements are those without
+    such motions; where loads act along them, there is no answer.
+
+    Raises:
+        SingularMatrixError: the structure moves freely under its loads.
+    """
+
+    def solve(stiffness: sp.csr_matrix, load: Float64) -> Float64:
+        return solve_static(
+            stiffness, load, solver=options.solver, threads=options.threads
+        )
+
+    try:
+        return solve(model.stiffness, p_f)
+    except SingularMatrixError:
+        if model.deck.number("BAILOUT") >= 0:
+            raise
+        found = model.mechanisms(solver=options.solver)
+        motions = np.concatenate(
+            [m.motions for m in found] or [np.zeros((len(p_f), 0))], axis=1
+        )
+        work, size = np.abs(motions.T @ p_f), np.abs(motions).T @ np.abs(p_f)
+        if not found or (work > _UNLOADED * size).any():
+            raise
+    held = np.asarray(qr(motions.T, mode="r", pivoting=True)[-1])[: motions.shape[1]]
+    keep = np.setdiff1d(np.arange(len(p_f)), held)
+    u_f = np.zeros_like(p_f)
+    u_f[keep] = solve(sp.csr_matrix(model.stiffness[keep][:, keep]), p_f[keep])
+    for line in describe(found, model.label):
+        options.console.say(
+            f"warning: {line}; no load acts along it, and PARAM,BAILOUT,-1 goes on: "
+            "displacements are those without it"
+        )
+    return u_f - motions @ np.linalg.lstsq(motions, u_f, rcond=None)[0]
+
+
+# Work of loads along a motion, relative to that of their sizes, that is rounding.
+_UNLOADED = 1e-8
 
 
 def _inertia_forces(model: Structure, acceleration_f: Float64) -> Float64:

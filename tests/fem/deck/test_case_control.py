@@ -157,9 +157,9 @@ def test_all_superelements_of_a_deck_without_any(read):
 
 
 def test_commands_that_only_a_solution_needs_wait_for_it(read):
-    (only,) = read(case="P2G = X\nBGSET = 1").case_control
+    (only,) = read(case="BOLTLD = 2\nBGSET = 1").case_control
     assert len(only.not_carried_out) == 2
-    (only,) = read(case="P2G = X", ignore=["CASE"]).case_control
+    (only,) = read(case="BGSET = 1", ignore=["CASE"]).case_control
     assert not only.not_carried_out
 
 

@@ -156,11 +156,64 @@ def test_modes_of_a_modal_transient_may_be_limited(say, params, words):
     assert words in text
 
 
-@pytest.mark.parametrize("command", ["K2PP=STIF", "P2G=LOAD", "STATSUB=1"])
+@pytest.mark.parametrize("command", ["K2PP=STIF", "BOLTLD=3", "STATSUB=1"])
 def test_commands_that_would_change_the_answer_are_refused(say, command):
     status, text = say(101, f"SPC=1\nLOAD=1\n{command}", BAR)
     assert status == 2
     assert "is not supported" in text
+
+
+def test_statics_without_loads_is_rest_and_said(say):
+    status, text = say(101, "SPC=1\nDISP=ALL", BAR)
+    assert status == 0
+    assert "selects no LOAD and enforces no displacement" in text
+    assert "largest displacement 0 " in text
+
+
+def test_a_motion_that_no_load_moves_is_held_where_bailout_goes_on(say):
+    bulk = BAR + OTHER + "PARAM,BAILOUT,-1\n"
+    status, text = say(101, "LOAD=1\nSPC=1", bulk)
+    assert status == 0
+    assert "6 motions without stiffness of a piece that nothing connects" in text
+    assert "largest displacement 0.0003809" in text  # F L^3 / 3 E I
+    status, text = say(101, "LOAD=1\nSPC=1", bulk + "FORCE,1,14,,1.,1.\n")
+    assert status == 2
+
+
+DIRECT = "DMIG,PP,0,9,1,0,,,2\nDMIG,PP,1,,,3,3,10.\nDMIG,PP,2,,,3,3,20.\n,3,5,0.\n"
+
+
+@pytest.mark.parametrize(
+    ("case", "moved"),
+    [
+        ("P2G=PP", ("0.0003809", "0.0007619")),
+        ("P2G=PP\nLOAD=1", ("0.0007619", "0.00114")),
+        ("P2G=0.5*PP", ("0.0001904", "0.0003809")),
+    ],
+)
+def test_direct_loads_are_columns_by_subcase(say, case, moved):
+    bulk = BAR + DIRECT
+    status, text = say(101, f"SPC=1\n{case}\nSUBCASE 1\nSUBCASE 7", bulk)
+    assert status == 0
+    for number, value in zip((1, 7), moved):
+        assert f"subcase {number}: largest displacement {value}" in text
+
+
+def test_direct_loads_that_cannot_be_are_named(say):
+    case = "SPC=1\nP2G=PP\nSUBCASE 1\nSUBCASE 2\nSUBCASE 3"
+    assert "or column 3 for it" in say(101, case, BAR + DIRECT)[1]
+    assert "DMIG QQ is not in the deck" in say(101, "P2G=QQ", BAR + DIRECT)[1]
+    six = BAR + "DMIG,PP,0,6,1,0\nDMIG,PP,3,3,,3,3,10.\n"
+    assert "expected 9 (rectangular)" in say(101, "SPC=1\nP2G=PP", six)[1]
+    status, text = say(109, "SPC=1\nDLOAD=1\nTSTEP=4\nP2G=PP", BAR + STEP + DIRECT)
+    assert status == 2
+    assert "P2G is not supported in SOL 109" in text
+
+
+def test_spcd_of_the_selected_number_counts_beside_a_load_card(say):
+    """As in MSC's demonstration problem ab4."""
+    bulk = BAR + "LOAD,300,1.,1.,1\nSPC,2,3,3,0.\nSPCADD,5,1,2\nSPCD,300,3,3,.25\n"
+    assert "largest displacement 0.25 " in say(101, "SPC=5\nLOAD=300", bulk)[1]
 
 
 def test_a_solution_that_is_not_supported_comes_before_all_else(say):
