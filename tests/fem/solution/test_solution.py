@@ -378,7 +378,6 @@ def test_mass_properties_are_written(run):
     ("sol", "case", "bulk", "words"),
     [
         (105, "SPC=1", "", "SOL 105"),
-        (101, "SPC=1", "", "selects no LOAD"),
         (101, "LOAD=10", "", "singular"),
         (103, "SPC=1", "", "SOL 103 needs METHOD"),
         (109, "SPC=1\nDLOAD=30", "", "TSTEP"),
