@@ -188,11 +188,11 @@ def _curves(table: pd.DataFrame) -> dict[str, Any]:
 
 def _story(result: CampaignResult) -> str:
     campaign = result.campaign
-    axes = ", ".join(
-        [*campaign.axes, *(["measured touchdowns"] * bool(campaign.table))]
-    )
+    varied = [path for path in campaign.axes if result.design[path].nunique() > 1]
+    axes = ", ".join([*varied, *(["measured touchdowns"] * bool(campaign.table))])
     return (
-        f"{len(result.design)} landings of {_names(result)}, which differ in {axes}. "
+        f"{len(result.design)} landings of {_names(result)}, which differ in "
+        f"{axes or 'nothing'}. "
         "Each was flown in the multibody model; the stress of every element comes from "
         "its modal amplitudes and static answers (screening), for the landings that "
         "decide from the direct transient of the full model (confirmed)."

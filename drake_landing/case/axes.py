@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.case.schema import Axes
+from drake_landing.case.deck_frame import Axes
 from drake_landing.gears import leg_matrix
 from drake_landing.gears.data import LandingGear, RigidPart
 from drake_landing.gears.legs import Leg

@@ -29,6 +29,7 @@ from drake_landing.case.bushing import Bushing
 from drake_landing.case.chord import Chord
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
+from drake_landing.case.deck_frame import Axes
 from drake_landing.case.design_values import with_design_values
 from drake_landing.case.labels import Label
 from drake_landing.case.mass_cases import MassCase, mass_case_of
@@ -43,7 +44,6 @@ from drake_landing.parametric import registered
 from fem.deck.source import include_reach
 from fem.errors import nearest
 
-Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 UnitSystem = Literal["SI", "mm-t-N", "in-lbf"]
 Basis = Literal["full-modes", "craig-bampton", "guyan"]
 _SELECTION = (
@@ -104,21 +104,6 @@ SelectionText = Annotated[
     PlainSerializer(str),
     WithJsonSchema({"type": "string", "pattern": _SELECTION}),
 ]
-
-
-class Axes(Section):
-    """Where the deck's basic frame points."""
-
-    forward: Axis = Field(default="-x", description="direction of flight")
-    up: Axis = Field(default="z", description="up, in level attitude")
-
-    @model_validator(mode="after")
-    def _perpendicular(self) -> Self:
-        if self.forward[-1] == self.up[-1]:
-            raise ValueError(
-                f"forward {self.forward} and up {self.up} must be different axes"
-            )
-        return self
 
 
 class Matrices(Section):

@@ -24,8 +24,9 @@ from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.selection import expected_pulses
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
+from drake_landing.case.deck_frame import Axes
 from drake_landing.case.reading import parse_case
-from drake_landing.case.schema import Axes, Case
+from drake_landing.case.schema import Case
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.step_error import STEPS, step_error
 from fem.arrays import Float64, Int64
@@ -48,12 +49,17 @@ class Stated:
 
     Attributes:
         units: a name of `fem.deck.units.SYSTEMS`.
-        forward, up: axes of the deck, such as `-x`.
+        forward, up: axes of the deck, such as `-x`; `+x` is `x`.
     """
 
     units: str | None = None
     forward: str | None = None
     up: str | None = None
+
+    def __post_init__(self) -> None:
+        for option in ("forward", "up"):
+            axis = getattr(self, option)
+            object.__setattr__(self, option, axis and axis.removeprefix("+"))
 
     def check(self) -> None:
         """Raises an InputError with all that cannot be meant."""

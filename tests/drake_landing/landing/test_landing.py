@@ -8,8 +8,9 @@ import pytest
 from pydrake.systems.analysis import Simulator
 
 from drake_landing.case.axes import gear_in_A, rotation_AB
+from drake_landing.case.deck_frame import Axes
 from drake_landing.case.reading import load_case
-from drake_landing.case.schema import Axes, Case, Scenario, Simulation
+from drake_landing.case.schema import Case, Scenario, Simulation
 from drake_landing.landing.history import LandingHistory, gear_peaks
 from drake_landing.landing.run import (
     LandingError,

@@ -8,8 +8,9 @@ import pytest
 from drake_landing.airframe.free_flight import half_model
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.case.axes import rotation_AB
+from drake_landing.case.deck_frame import Axes
 from drake_landing.case.reading import load_case
-from drake_landing.case.schema import Axes, Case
+from drake_landing.case.schema import Case
 from drake_landing.cli import app, guarded
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.new_case import Stated, _guessed_axes, guess_units
@@ -121,7 +122,7 @@ def test_axes_are_found_however_a_deck_lies(forward: str) -> None:
 
 def test_what_is_stated_is_not_guessed(tmp_path: Path) -> None:
     path = tmp_path / "new.yaml"
-    options = ["--units", "mm-t-N", "--forward", "x", "--up", "z"]
+    options = ["--units", "mm-t-N", "--forward", "x", "--up", "+z"]
     assert guarded(app, ["new", str(path), "--deck", str(COMMUTER), *options]) == 0
     head = path.read_text().split("scenario:")[0]
     assert "GUESS by" not in head
