@@ -1,11 +1,9 @@
 """Lines of a deck with all its INCLUDE files, each with the place it comes from.
 
 A deck of other people must not read what its user can read: INCLUDE reaches the folder
-of the deck, all below it, the project that it is in, and folders that the user adds
-(`--include-path`, `airframe.include_paths`); `--trust` lifts that. The project is the
-working copy of the deck's folder (.git, .hg, .svn) and, where the deck is below it, the
-working directory; neither a home folder or what is above one, nor hidden files. Links
-count where they lead. Depth, number and size of files are limited.
+of the deck, all below it, and folders that the user adds (`--include-path`,
+`airframe.include_paths`); `--trust` lifts that. Links count where they lead. Depth,
+number and size of files are limited.
 """
 
 import os
@@ -22,7 +20,6 @@ from fem.errors import InputError
 _LONGEST_PATH = 20  # lines over which the path of an INCLUDE may be split
 
 
-_MARKS = (".git", ".hg", ".svn")
 _DEEPEST = 20  # INCLUDEs within each other
 _MOST_FILES = 2_000
 _MOST_BYTES = 4_000_000_000  # of all files; a deck of ten million grids has less
@@ -144,29 +141,11 @@ def _check_reach(file: Path, home: Path, place: str) -> None:
     allowed = [folder.resolve() for folder in (home, *reach.folders)]
     if reach.everything or any(resolved.is_relative_to(a) for a in allowed):
         return
-    for project in _projects(home.resolve()):
-        if resolved.is_relative_to(project):
-            inside = resolved.relative_to(project).parts
-            if not any(part.startswith(".") for part in inside):
-                return
     raise InputError(
         f"{place}: INCLUDE of {file}, outside the folder of the deck; if that is "
         f"meant: --include-path {shlex.quote(str(resolved.parent))}, "
         "airframe.include_paths of a case, or --trust"
     )
-
-
-def _projects(home: Path) -> Iterator[Path]:
-    """Folders above that of a deck which hold one piece of work."""
-    try:
-        user = Path.home().resolve()
-    except RuntimeError:
-        return
-    for folder in home.parents:
-        if user.is_relative_to(folder):
-            return
-        if folder == Path.cwd() or any((folder / name).exists() for name in _MARKS):
-            yield folder
 
 
 def _text(source: Source, path: Path, shown: str) -> str:

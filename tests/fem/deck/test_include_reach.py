@@ -49,33 +49,6 @@ def test_outside_is_refused_with_what_would_allow_it(place, way):
         assert any("GRID,1" in line.text for line in read_source(path).lines)
 
 
-@pytest.mark.parametrize("mark", [".git", ""])
-def test_the_project_of_a_deck_may_be_read(place, monkeypatch, mark):
-    """A working copy, or the working directory above the deck; no hidden files."""
-    path = deck(place, "../other/grids.inc")
-    if mark:
-        (place / mark).mkdir()
-    else:
-        monkeypatch.chdir(place)
-    assert any("GRID,1" in line.text for line in read_source(path).lines)
-    (place / ".other").mkdir()
-    (place / ".other" / "grids.inc").write_text("GRID,1\n")
-    with pytest.raises(InputError, match="outside the folder"):
-        read_source(deck(place, "../.other/grids.inc"))
-    (place / "deck" / "link").symlink_to(place.parent)
-    (place.parent / "grids.inc").write_text("GRID,1\n")
-    with pytest.raises(InputError, match="outside the folder"):
-        read_source(deck(place, "link/grids.inc"))
-
-
-def test_a_home_folder_is_no_project(place, monkeypatch):
-    monkeypatch.setenv("HOME", str(place))
-    monkeypatch.chdir(place)
-    (place / ".git").mkdir()
-    with pytest.raises(InputError, match="outside the folder"):
-        read_source(deck(place, "../other/grids.inc"))
-
-
 def test_folders_that_are_given_are_searched(place):
     with include_reach([place / "other"]):
         texts = [line.text for line in read_source(deck(place, "grids.inc")).lines]
