@@ -15,7 +15,7 @@ from fem.arrays import Float64, Int64
 from fem.elements.block import ElementBlock
 from fem.errors import InputError
 from fem.geometry.points import Points
-from fem.model.direct_input import NONE, DirectMatrices
+from fem.model.direct_input import LARGEST, NONE, DirectMatrices
 
 # Entries of element matrices turned and sorted at once: about 100 MB of work space.
 _PIECE = 2_000_000
@@ -115,15 +115,19 @@ def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 |
     """The matrices of a block (e, n, n) as they are.
 
     Raises:
-        InputError: elements whose matrix is not finite.
+        InputError: elements whose matrix is not finite, or so large that its square
+            would not be.
     """
-    if matrix is not None and not np.isfinite(matrix).all():
-        bad = block.id[~np.isfinite(matrix).all(axis=(1, 2))]
+    if matrix is None:
+        return None
+    usable = np.abs(matrix) < LARGEST  # neither infinite nor NaN
+    if not usable.all():
+        bad = block.id[~usable.all(axis=(1, 2))]
         more = f", ... ({len(bad)} in all)" if len(bad) > 5 else ""
         raise InputError(
             f"{block.card} {', '.join(map(str, bad[:5]))}{more}: the {what} is beyond "
-            "the range of double precision (1e308); look at its property, material and "
-            "size"
+            f"what can be computed with ({LARGEST:g}); look at its property, material "
+            "and size"
         )
     return matrix
 

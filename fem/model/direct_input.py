@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
 SYMMETRIC, RECTANGULAR = 6, 9
+LARGEST = 1e100  # of an entry: products of three stay within double precision
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,6 +92,8 @@ def dmig(deck: "Deck", points: Points, name: str) -> sp.csr_matrix:
     values = np.asarray(card["values"], float)
     matrix = sp.csr_matrix((values, (row, column)), shape=(points.size, points.size))
     size = abs(matrix).max() if matrix.nnz else 0.0
+    if size > LARGEST:
+        raise InputError(f"{place}: found {size:g}, expected no more than {LARGEST:g}")
     if abs(matrix - matrix.T).max() > 1e-12 * size:
         raise InputError(f"{place}: the two triangles differ, expected symmetry")
     return matrix

@@ -230,6 +230,16 @@ def test_isotropic_shell_with_a_system_normal_to_it(solve):
             "CROD 1: the stiffness is beyond",
         ),
         (
+            ROD + "CELAS2,8,1.+200,11,2\n",
+            "",
+            "CELAS2 8: the stiffness is beyond what can be computed with",
+        ),
+        (
+            ROD + "DMIG,KADD,0,6,2,0\nDMIG,KADD,12,1,,12,1,1.+300\n",
+            "K2GG = KADD",
+            "DMIG KADD: found 1e\\+300, expected no more than 1e\\+100",
+        ),
+        (
             ROD.replace("1000.,1.", "1.+300,1.").replace("3,2.", "3,1.-20"),
             "",
             "displacement is inf at grid 12 T1",
