@@ -4,6 +4,7 @@ Each function takes the columns of one card name and changes them in place; what
 wrong is appended to `problems`.
 """
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -47,15 +48,49 @@ def bend(columns: Columns, problems: Problems) -> None:
 
 
 def pbend(columns: Columns, problems: Problems) -> None:
-    """An integer in place of A makes it a pipe (FSI)."""
-    for row, area in enumerate(columns["a"]):
-        if isinstance(area, int) or not area > 0.0:
+    """An integer in place of A (FSI) makes it a pipe: mean radius, wall, pressure.
+
+    Its section is the annulus, with Timoshenko's shear factor I b / (A S), b the
+    width and S the first moment of half of it; other fields stand elsewhere.
+    """
+    names = ("fsi", "rm", "wall", "pressure")
+    for name in names:
+        columns[name] = [0] * len(columns["a"]) if name == "fsi" else []
+    for row, a in enumerate(columns["a"]):
+        r, t, p = (columns[name][row] for name in ("i1", "i2", "j"))
+        pipe = isinstance(a, int) and a in (1, 2)
+        for name, value in zip(names[1:], (r, t, p)):
+            columns[name].append(value if pipe else 0.0)
+        if pipe and 0.0 < t < 2.0 * r:
+            columns["fsi"][row] = a
+            _pipe(columns, row, r + 0.5 * t, r - 0.5 * t)
+        elif pipe:
+            problems.append(
+                f"{_place(columns, row)}: PBEND {columns['pid'][row]}: found RM {r:g}, "
+                f"T {t:g}, expected T above 0 and below twice RM"
+            )
+        elif isinstance(a, int) or not a > 0.0:
             problems.append(
                 f"{_place(columns, row)}: PBEND {columns['pid'][row]} field A: found "
-                f"{area}, expected a positive real number; pipes by FSI are not "
-                "supported"
+                f"{a}, expected a positive real number, or FSI 1 or 2 of a pipe (3, "
+                "Welding Research Council Bulletin 179, is not supported)"
             )
-    columns["a"] = [float(area) for area in columns["a"]]
+    columns["a"] = [float(a) for a in columns["a"]]
+
+
+def _pipe(columns: Columns, row: int, outer: float, inner: float) -> None:
+    """Section and moved fields of a pipe by its radii."""
+    area = math.pi * (outer**2 - inner**2)
+    second = math.pi / 4.0 * (outer**4 - inner**4)
+    first = 2.0 / 3.0 * (outer**3 - inner**3)
+    shear = second * 2.0 * (outer - inner) / (area * first)
+    moved = {"nsm": "d1", "rc": "d2", "zc": "e1"}
+    moved = {name: columns[other][row] for name, other in moved.items()}
+    points = dict.fromkeys(("c1", "c2", "d1", "d2", "e1", "e2", "f1", "f2"), 0.0)
+    values = {"a": area, "i1": second, "i2": second, "j": 2.0 * second}
+    values |= {"k1": shear, "k2": shear, "deltan": math.nan, **points, **moved}
+    for name, value in values.items():
+        columns[name][row] = value
 
 
 def fastener(columns: Columns, problems: Problems) -> None:

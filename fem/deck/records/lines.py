@@ -257,8 +257,9 @@ RECORDS = (
         fields="pid:i mid:i>MAT1 a:u[L2] i1:f[L4] i2:f[L4] j:f=0.[L4] rb:f=0.[L] "
         "thetab:f=0. c1:f=0.[L] c2:f=0.[L] d1:f=0.[L] d2:f=0.[L] e1:f=0.[L] e2:f=0.[L] "
         "f1:f=0.[L] f2:f=0.[L] k1:f=0. k2:f=0. nsm:f=0.[M/L] rc:f=0.[L] zc:f=0.[L] "
-        "deltan:f=0.[L]",
+        "deltan:f=nan[L]",
         finish=finish.pbend,
+        more="fsi:i rm:f[L] wall:f[L] pressure:f[M/L]",
         ids="own",
         extent="length",
     ),

@@ -11,6 +11,13 @@ I1 / (A R), so that bending and stretching are coupled (Winkler; Timoshenko, Str
 Materials II). The strain energy of a quarter circle is so MSC's to seven digits:
 
     C_MM = 1 / (E A DELTAN R),    C_NM = 1 / (E A R),    C_NN = 1 / (E A)
+
+A pipe (FSI) of radii a, b has the neutral axis of the annulus, and bends in both planes
+k >= 1 times as much, as its section flattens (ASME code III, NB-3687.2; r mean radius,
+t wall, p pressure; formula from memory, MSC's figures are met where k = 1):
+
+    DELTAN = R - (a² - b²) / (2 √(R² - b²) - 2 √(R² - a²))
+    k = 1.65 r² / (t R) / (1 + 6 p r / (t E) (r / t)^(4/3) (R / r)^(1/3))
 """
 
 from dataclasses import dataclass
@@ -175,14 +182,35 @@ def _compliance(
         factor = column(values, name)
         stiff = np.where(factor > 0.0, factor * shear * a, np.inf)
         matrix[:, index, index] = 1.0 / stiff
-    given = column(values, "deltan")
-    offset = np.where(given != 0.0, given, i1 / (a * radius))
+    given = values["deltan"].to_numpy(float)
+    offset = np.where(np.isnan(given), i1 / (a * radius), given)
+    is_pipe = column(values, "fsi") > 0
+    r, t = column(values, "rm"), column(values, "wall")
+    softer = np.ones(len(a))
+    if is_pipe.any():
+        with np.errstate(invalid="ignore", divide="ignore"):
+            neutral = _neutral_of_pipe(radius, r + 0.5 * t, r - 0.5 * t)
+            ratio = 1.65 * r**2 / (t * radius)
+            stiffening = 6.0 * column(values, "pressure") * r / (t * young)
+            stiffening *= (r / t) ** (4.0 / 3.0) * (radius / r) ** (1.0 / 3.0)
+            k = np.maximum(1.0, ratio / (1.0 + stiffening))
+        offset = np.where(is_pipe, radius - neutral, offset)
+        softer = np.where(is_pipe, k, softer)
     matrix[:, 1, 1] = 1.0 / (young * a)
-    matrix[:, 3, 3] = 1.0 / (young * i2)
+    matrix[:, 3, 3] = softer / (young * i2)
     matrix[:, 4, 4] = 1.0 / (shear * j)
-    matrix[:, 5, 5] = 1.0 / (young * a * offset * radius)
-    matrix[:, 1, 5] = matrix[:, 5, 1] = 1.0 / (young * a * radius)
+    curved = offset != 0.0
+    offset = np.where(curved, offset, i1 / (a * radius))
+    matrix[:, 5, 5] = softer / (young * a * offset * radius)
+    coupled = np.where(curved, 1.0 / (young * a * radius), 0.0)
+    matrix[:, 1, 5] = matrix[:, 5, 1] = coupled
     return matrix
+
+
+def _neutral_of_pipe(radius: Float64, outer: Float64, inner: Float64) -> Float64:
+    """(e,) radius of the neutral axis of bent annuli, A over the integral of dA/r."""
+    roots = np.sqrt(radius**2 - inner**2) - np.sqrt(radius**2 - outer**2)
+    return 0.5 * (outer**2 - inner**2) / roots
 
 
 def _arcs(

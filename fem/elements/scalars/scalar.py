@@ -4,7 +4,7 @@ They act on freedoms of the displacement frames; an absent grid is ground. The m
 of each is c [[1, -1], [-1, 1]].
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,8 +51,7 @@ class Springs(DenseBlock):
 
     def strains(self) -> Recovery:
         """Stress coefficient times elongation, as NX has it."""
-        elongation = self._recovery(SPRING[2], self.s)
-        return replace(elongation, loss=None)
+        return self._recovery(SPRING[2], self.s)
 
     def _recovery(self, column: str, factor: Float64) -> Recovery:
         """Elongation times factors (e,); in harmonic motion with what GE adds."""

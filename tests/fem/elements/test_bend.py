@@ -97,5 +97,65 @@ def test_arcs_that_cannot_be_are_refused(model):
     ):
         with pytest.raises(InputError, match="no arc"):
             model(text)
-    with pytest.raises(InputError, match="pipes by FSI"):
+    with pytest.raises(InputError, match=r"or FSI 1 or 2 of a pipe \(3"):
+        model(bend("3,,,1").replace("PBEND,1,2,.1", "PBEND,1,2,3"))
+    with pytest.raises(InputError, match=r"RM 0\.01, T 0\.02, expected T above 0"):
         model(bend("3,,,1").replace("PBEND,1,2,.1", "PBEND,1,2,1"))
+
+
+PIPE = """\
+GRID,1,,0.,0.,0.
+GRID,2,,1.,1.,0.
+MAT1,2,1.+7,,.3
+CBEND,1,1,1,2,1.,0.,0.,3
+PBEND,1,2,2,.1,{t},{p},1.
+"""
+
+
+def test_a_pipe_moves_as_in_a_commercial_code(model):
+    """MSC Nastran's demonstration problem d200obus, CBEND 6911 (printed digits)."""
+    (block,) = model(PIPE.format(t=0.05, p=100.0)).blocks
+    moved = tip(block, np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]))
+    printed = [
+        *(1.740756e-4, -7.588704e-5, 7.730167e-4),
+        *(6.890472e-4, -3.034299e-4, -2.499627e-4),
+    ]
+    assert moved == pytest.approx(printed, rel=1e-6)
+
+
+def test_two_bends_one_a_pipe_move_as_in_a_commercial_code(model):
+    """MSC's api3, grid 6904 at 0 Hz; DELTAN 0 leaves bending and stretching apart."""
+    text = """\
+GRID,1,,0.,0.,0.,,123456
+GRID,2,,1.,0.,0.,,123456
+GRID,3,,0.,1.,0.,,123456
+GRID,4,,1.,1.,0.
+CBEND,1,1,1,4,3,,,1
+CBEND,2,2,1,4,2,,,1
+PBEND,1,1,1.,.0833,.0833,.05
+,-.5,-.5,-.5,.5,.5,.5,.5,-.5
+,,,,,,0.
+PBEND,2,1,1,.3285,.4845
+MAT1,1,1.+7,4.+6,.25
+"""
+    (block,) = model(text).blocks
+    joined = sum(matrix[6:, 6:] for matrix in block.stiffness())
+    moved = np.linalg.solve(joined, [2.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    # The real part of a response with GE 0.03333, in the plane of the arcs.
+    assert moved[[0, 1, 5]] / (1.0 + 0.03333**2) == pytest.approx(
+        [7.9505315e-7, -5.2565719e-7, -8.1916903e-7], rel=1e-6
+    )
+
+
+def test_thin_pipes_flatten_and_pressure_stiffens_them(model):
+    """Rotation under a moment grows by k of ASME III NB-3687.2."""
+
+    def turned(t: float, p: float) -> float:
+        (block,) = model(PIPE.format(t=t, p=p)).blocks
+        return tip(block, np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1.0]))[5]
+
+    t, inertia = 0.002, np.pi / 4 * (0.101**4 - 0.099**4)
+    k = 1.65 * 0.1**2 / t
+    assert turned(t, 0.0) == pytest.approx(k * np.pi / 2 / (1e7 * inertia), rel=0.02)
+    eased = 1.0 + 6.0 * 300.0 * 0.1 / (t * 1e7) * 50.0 ** (4 / 3) * 10.0 ** (1 / 3)
+    assert turned(t, 0.0) / turned(t, 300.0) == pytest.approx(eased)
