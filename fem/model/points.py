@@ -13,12 +13,14 @@ from fem.geometry.points import Points
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
+_FARTHEST = 1e30  # of a coordinate; volumes times volumes stay within double precision
+
 
 def read_points(deck: Deck) -> Points:
     """Points of a deck.
 
     Raises:
-        InputError: coordinate systems that cannot be placed.
+        InputError: coordinate systems that cannot be placed, grids beyond all bounds.
     """
     grid = deck.cards["GRID"].sort_values("id", kind="stable")
     frames, xyz = resolve(deck.cards["CORD"], grid)
@@ -28,6 +30,13 @@ def read_points(deck: Deck) -> Points:
             f"GRID {grid['id'][grid['cd'] == cid].tolist()[:5]}: coordinate "
             f"system CD {cid} is not defined"
             for cid in undefined
+        )
+    far = ~(np.abs(xyz) < _FARTHEST).all(axis=1)  # NaN counts, too
+    if far.any():
+        raise InputError(
+            f"GRID {grid_id}: found ({', '.join(f'{x:g}' for x in at)}) in basic "
+            f"coordinates, expected no more than {_FARTHEST:g}"
+            for grid_id, at in zip(grid["id"][far].tolist()[:5], xyz[far])
         )
     cd = grid["cd"].to_numpy(np.int64)
     digits = grid["ps"].to_numpy(dtype=str)

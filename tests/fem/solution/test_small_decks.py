@@ -229,6 +229,7 @@ def test_isotropic_shell_with_a_system_normal_to_it(solve):
             "",
             "CROD 1: the stiffness is beyond",
         ),
+        (ROD + "GRID,14,,1.+300\n", "", "GRID 14: found \\(1e\\+300, 0, 0\\)"),
         (
             ROD + "CELAS2,8,1.+200,11,2\n",
             "",
