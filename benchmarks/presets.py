@@ -1,8 +1,10 @@
 """Plausibility of the loads of every preset of CS-25, and what each run keeps.
 
-    python -m benchmarks.presets [con] [pre] [--hz 50] [--text] [--write]
+    python -m benchmarks.presets [con] [pre] [--only PRESET ...] [--hz 50] [--text]
+                                 [--write]
 
-Prints the tables of `docs/conditions.md`; with `--write` puts them there.
+Prints the tables of `docs/conditions.md`; with `--write` puts them there, with `--only`
+the rows of these presets. `one_gear` has no row: its gear lands as in `two_point`.
 """
 
 import argparse
@@ -217,13 +219,16 @@ def braked_nose_load(body: ModalBody, gears: Sequence[LandingGear]) -> float:
     return mass * STANDARD_GRAVITY / (A + B) * (B + dynamic)
 
 
-def tables(level: str, below_hz: float) -> dict[str, list[str]]:
-    """Name of each table of an aircraft -> its lines."""
+def tables(
+    level: str, below_hz: float, only: Sequence[str] = ()
+) -> dict[str, list[str]]:
+    """Name of each table of an aircraft -> its lines; all presets, or `only` some."""
     body, gears, wing = reference_aircraft(level, below_hz)
     static, _ = at_rest(body, gears)
     mass, _ = aircraft_mass_center(body, gears)
-    # Gears land in one_gear as in two_point.
-    names = [name for name in PRESETS if name != "one_gear"]
+    names = [
+        name for name in PRESETS if name != "one_gear" and name in (only or PRESETS)
+    ]
     trials = {name: run_preset(name, body, gears, wing) for name in names}
     head = [
         f"{mass / 1e3:.1f} t, {body.n} elastic modes below {body.frequency[-1]:.0f} "
@@ -234,7 +239,7 @@ def tables(level: str, below_hz: float) -> dict[str, list[str]]:
     ]
     found = {f"loads_{level}": head + list(loads(trials, static))}
     found[f"audit_{level}"] = list(audits(trials))
-    if level == "con":
+    if level == "con" and not only:
         # The independent model has the laws of the paper's gears.
         found["rigid"] = list(rigid_models(body, landing_gears(paper=True)))
     return found
@@ -251,6 +256,24 @@ def put(page: str, name: str, lines: Sequence[str]) -> str:
     return replaced
 
 
+def with_rows(page: str, name: str, lines: Sequence[str]) -> list[str]:
+    """Lines of a table of the page with the rows of some presets replaced, or added."""
+    old = page.partition(f"<!-- {name} -->\n")[2].partition(f"\n<!-- /{name} -->")[0]
+    rows: dict[str, list[str]] = {preset: [] for preset in PRESETS}
+    for line in old.splitlines():
+        if preset := _preset_of(line):
+            rows[preset].append(line)
+    for preset in {p for p in map(_preset_of, lines) if p}:
+        rows[preset] = [line for line in lines if _preset_of(line) == preset]
+    head = [line for line in lines if not _preset_of(line)]
+    return head + [line for group in rows.values() for line in group]
+
+
+def _preset_of(line: str) -> str | None:
+    found = re.match(r"\| `(\w+)`", line)
+    return found[1] if found else None
+
+
 def rules(paragraphs: Sequence[Paragraph]) -> Iterator[str]:
     """Table of a rule: what it asks for and what the program does."""
     yield "| § | condition | the rule | the program | text |"
@@ -263,6 +286,7 @@ def main() -> None:
     """Prints the tables, and writes them where that is wanted."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("levels", nargs="*", default=["con", "pre"])
+    parser.add_argument("--only", nargs="+", choices=list(PRESETS), default=[])
     parser.add_argument("--text", action="store_true", help="tables without runs")
     parser.add_argument("--hz", type=float, default=50.0)
     parser.add_argument("--write", action="store_true")
@@ -270,9 +294,11 @@ def main() -> None:
     found = {"conditions": list(conditions())}
     found |= {"rules_cs25": list(rules(CS25)), "rules_cs23": list(rules(CS23))}
     for level in [] if arguments.text else arguments.levels:
-        found |= tables(level, arguments.hz)
+        found |= tables(level, arguments.hz, arguments.only)
     page = PAGE.read_text(encoding="utf-8")
     for name, lines in found.items():
+        if arguments.only and name.startswith(("loads_", "audit_")):
+            lines = with_rows(page, name, lines)
         print(f"\n{name}\n", *lines, sep="\n")
         page = put(page, name, lines)
     if arguments.write:

@@ -99,8 +99,8 @@ def parse_model(
     try:
         found = model.model_validate(data, context={"folder": folder})
     except ValidationError as error:
-        wrong = [_problem(model, places, dict(e), data) for e in error.errors()]
-        problems += [f"{file}:{line}: {text}" for line, text in sorted(set(wrong))]
+        wrong = [_problem(model, places, e, data) for e in _separate(error)]
+        problems += [f"{file}:{line}: {text}" for line, text in _joined(wrong)]
         raise InputError(problems) from None
     if problems:
         raise InputError(problems)
@@ -154,8 +154,44 @@ def problems_of(
     model: type[BaseModel], error: ValidationError, data: dict[str, Any]
 ) -> list[str]:
     """Problems of data that come from no file, each `field: found, expected`."""
-    found = [_problem(model, Places(), dict(e), data)[1] for e in error.errors()]
-    return list(dict.fromkeys(found))
+    found = [_problem(model, Places(), e, data) for e in _separate(error)]
+    return [text for _, text in _joined(found)]
+
+
+def _separate(error: ValidationError) -> list[dict[str, Any]]:
+    """Its errors without those that follow from others.
+
+    A list whose entries are wrong is counted as too short, too.
+    """
+    errors = [dict(e) for e in error.errors()]
+    return [
+        e
+        for e in errors
+        if e["type"] != "too_short"
+        or not any(
+            o["loc"] != e["loc"] and o["loc"][: len(e["loc"])] == e["loc"]
+            for o in errors
+        )
+    ]
+
+
+def _joined(wrong: list[tuple[int, str]]) -> list[tuple[int, str]]:
+    """In the order of their lines; what the branches of a union expect in one."""
+    found: dict[tuple[int, str], str] = {}
+    for line, text in sorted(set(wrong)):
+        key = line, text.partition(", expected ")[0]
+        found[key] = _either(found[key], text) if key in found else text
+    return [(line, text) for (line, _), text in found.items()]
+
+
+def _either(one: str, other: str) -> str:
+    """Two `found, expected (meaning)` of one value as one."""
+    head, _, first = one.partition(", expected ")
+    second = other.partition(", expected ")[2]
+    places = (m.start() for m in re.finditer(r" \(", first))
+    meaning = next((first[i:] for i in places if second.endswith(first[i:])), "")
+    either = f"{first.removesuffix(meaning)}, or {second.removesuffix(meaning)}"
+    return f"{head}, expected {either}{meaning}"
 
 
 def _problem(
@@ -211,6 +247,11 @@ def _explain(
         return message
     if error["type"] in ("model_type", "dict_type"):
         message = "a mapping of keys and values"
+    if error["type"] in ("too_short", "too_long"):
+        limits, short = error["ctx"], error["type"] == "too_short"
+        count = limits["min_length"] if short else limits["max_length"]
+        found = f"found {limits['actual_length']} entries"
+        return f"{found}, expected {count} or {'more' if short else 'fewer'}{meaning}"
     if error["type"] == "string_pattern_mismatch":
         message = f"text that matches {error['ctx']['pattern']}"
     message = _PLAIN.get(error["type"], message).removeprefix("Input should be ")
@@ -249,7 +290,7 @@ def _resolve(
             if field.annotation and "dict" in str(field.annotation):
                 path.append(step)
             continue  # a tag that pydantic adds for the branch of a union
-        if not fields and field is not None and _is_tag(step):
+        if not fields and field is not None and _is_tag(step, field):
             continue
         path.append(step)
         field = fields[0] if fields else None
@@ -258,8 +299,12 @@ def _resolve(
     return models, field, tuple(path)
 
 
-def _is_tag(step: str) -> bool:
-    return any(mark in step for mark in "[]('")
+def _is_tag(step: str, field: FieldInfo) -> bool:
+    """A branch of a union, not the key of a mapping."""
+    if any(mark in step for mark in "[]('"):
+        return True
+    simple = re.fullmatch(r"(constrained-)?(float|int|str|bool)", step)
+    return bool(simple) and "dict" not in str(field.annotation)
 
 
 def _models_in(annotation: Any) -> list[type[BaseModel]]:

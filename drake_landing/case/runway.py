@@ -12,6 +12,7 @@ from pydantic import (
 )
 
 from drake_landing.case.section import Section, number
+from drake_landing.gears.fields import one_of
 from systems.runway.roughness import ISO_8608
 from systems.runway.runway_profile import FOOT, MeasuredProfile, measured_tracks
 
@@ -123,8 +124,7 @@ class Roughness(Section):
 
     @model_validator(mode="after")
     def _sound(self) -> Self:
-        if (self.iso_class is None) == (self.intensity is None):
-            raise ValueError("give either iso_class or intensity")
+        one_of(iso_class=self.iso_class, intensity=self.intensity)
         short, long = self.wavelengths
         if not 0.1 <= short < long:
             raise ValueError(

@@ -144,7 +144,9 @@ class LandingGear(Data):
     def _wheels_apart(self) -> Self:
         offsets = self.wheel_offsets
         if any(b <= a for a, b in pairwise(offsets)):
-            raise ValueError(f"wheel_offsets {offsets} m must be strictly ascending")
+            raise ValueError(
+                f"wheel_offsets: found {offsets} m, expected strictly ascending ones"
+            )
         if max(map(abs, offsets)) > _WIDEST:
             raise ValueError(
                 f"wheel_offsets: found {offsets} m, expected within {_WIDEST:g} m of "
@@ -160,12 +162,15 @@ class LandingGear(Data):
         for what, values in (("name", names), ("node", nodes)):
             twice = sorted({v for v in values if values.count(v) > 1}, key=str)
             if twice:
-                raise ValueError(f"attachments: {what} {twice[0]} is used twice")
+                raise ValueError(
+                    f"further_attachments: found {what} {twice[0]} twice, expected "
+                    f"each {what} once, attachment_node included"
+                )
         count = sum(len(hold.directions) for hold in further)
         if self.attachment == "ball" and count < 3:
             raise ValueError(
-                f"attachment: a ball holds 3 directions, further_attachments {count}; "
-                "together they must hold 6 or more"
+                "attachment: found a ball, which holds 3 directions, and "
+                f"further_attachments that hold {count}, expected 6 or more together"
             )
         return self
 

@@ -21,7 +21,8 @@ def _ascending(table: list[tuple[float, float]]) -> list[tuple[float, float]]:
     for (before, _), (after, _) in pairwise(table):
         if not after > before:
             raise ValueError(
-                f"{after:g} follows {before:g}, expected strictly ascending abscissae"
+                f"found {after:g} after {before:g}, expected strictly ascending "
+                "abscissae"
             )
     return table
 
@@ -38,6 +39,21 @@ def _existing(path: Path, info: ValidationInfo) -> Path:
     if not path.is_file():
         raise ValueError(f"found {path}, expected a file that is there")
     return path
+
+
+def one_of(**given: object) -> None:
+    """Checks that exactly one of some fields is given; None stands for absent.
+
+    Raises:
+        ValueError: none or several are.
+    """
+    found = [name for name, value in given.items() if value is not None]
+    if len(found) != 1:
+        first = (found or list(given))[0]
+        raise ValueError(
+            f"{first}: found {' and '.join(found) or 'none'}, expected one of "
+            f"{', '.join(given)}"
+        )
 
 
 InputFile = Annotated[Path, AfterValidator(_existing)]

@@ -68,15 +68,22 @@ def with_bodies(data: dict[str, Any], context: Any) -> dict[str, Any]:
     try:
         chosen = ModelFile.model_validate(data["bodies"], context=context)
     except ValidationError as error:
-        problems = (
-            f"bodies.{'.'.join(map(str, e['loc']))}: {e['msg']}" for e in error.errors()
-        )
-        raise ValueError("; ".join(problems)) from None
+        raise ValueError("; ".join(map(_wrong_field, error.errors()))) from None
     try:
         found = _Model(chosen).data(float(data.get("rake_deg", 0.0)))
     except ValueError as error:
         raise ValueError(f"bodies.{error}") from None
     return {name: value for name, value in data.items() if name != "bodies"} | found
+
+
+def _wrong_field(error: Any) -> str:
+    """A field of `ModelFile` that is wrong, as other fields of a case are named."""
+    name = f"bodies.{'.'.join(map(str, error['loc']))}"
+    if error["type"] == "missing":
+        return f"{name}: missing"
+    expected = error["msg"].removeprefix("Value error, ").partition("expected ")
+    wanted = expected[2] or error["msg"].removeprefix("Input should be ")
+    return f"{name}: found {error['input']!r}, expected {wanted}"
 
 
 class _Model:

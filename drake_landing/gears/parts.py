@@ -11,7 +11,14 @@ from pydantic import (
     model_validator,
 )
 
-from drake_landing.gears.fields import Data, NotNegative, Positive, Table, Vector3
+from drake_landing.gears.fields import (
+    Data,
+    NotNegative,
+    Positive,
+    Table,
+    Vector3,
+    one_of,
+)
 
 
 class RigidPart(Data):
@@ -29,8 +36,8 @@ class RigidPart(Data):
         x, y, z = self.inertia
         if 2 * max(x, y, z) > x + y + z:
             raise ValueError(
-                f"inertia ({x}, {y}, {z}) kg m²: one moment exceeds the sum of the "
-                "other two, which no body has"
+                f"inertia: found ({x:g}, {y:g}, {z:g}) kg m², expected no moment above "
+                "the sum of the other two, as no body has it"
             )
         return self
 
@@ -55,8 +62,8 @@ class Wheel(Data):
     def _physical(self) -> Self:
         if 2 * self.transverse < self.spin_inertia:
             raise ValueError(
-                f"transverse_inertia {self.transverse} kg m² is below half the spin "
-                f"inertia {self.spin_inertia} kg m², which no body has"
+                f"transverse_inertia: found {self.transverse:g} kg m², expected "
+                f"no less than half of spin_inertia, {self.spin_inertia:g} kg m²"
             )
         return self
 
@@ -80,7 +87,8 @@ class AntiSkid(Data):
     def _ordered(self) -> Self:
         if not self.release > self.onset:
             raise ValueError(
-                f"release {self.release} must exceed the onset {self.onset}"
+                f"release: found {self.release:g}, expected more than the onset, "
+                f"{self.onset:g}"
             )
         return self
 
@@ -101,10 +109,12 @@ class Brake(Data):
 
     @model_validator(mode="after")
     def _one_law(self) -> Self:
-        if (self.torque is None) == (self.torque_table is None):
-            raise ValueError("give either torque or torque_table")
-        if self.torque_table and min(t for _, t in self.torque_table) < 0:
-            raise ValueError("torque_table: a torque is negative, expected >= 0 N m")
+        one_of(torque=self.torque, torque_table=self.torque_table)
+        least = min((t for _, t in self.torque_table or ()), default=0.0)
+        if least < 0:
+            raise ValueError(
+                f"torque_table: found a torque of {least:g} N m, expected >= 0"
+            )
         return self
 
 
@@ -138,7 +148,8 @@ class PitchDamper(Data):
     def _within_stops(self) -> Self:
         if self.stop_deg is not None and abs(self.trim_deg) > self.stop_deg:
             raise ValueError(
-                f"trim_deg {self.trim_deg} lies beyond the stop at {self.stop_deg} deg"
+                f"trim_deg: found {self.trim_deg:g}, expected within stop_deg, "
+                f"{self.stop_deg:g}"
             )
         return self
 
@@ -171,7 +182,9 @@ class FurtherAttachment(Data):
     @model_validator(mode="after")
     def _sound(self) -> Self:
         if any(not any(direction) for direction in self.directions):
-            raise ValueError("directions: (0, 0, 0) is none")
+            raise ValueError("directions: found (0, 0, 0), expected a direction")
         if self.stiffness is None and self.damping:
-            raise ValueError("damping needs a stiffness beside it")
+            raise ValueError(
+                f"damping: found {self.damping:g} N s/m, expected a stiffness beside it"
+            )
         return self

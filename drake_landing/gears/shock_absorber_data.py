@@ -224,8 +224,8 @@ class ShockAbsorber(Data):
         length = self.gas_length + (second.gas_length if second else 0.0)
         if length <= self.stroke:
             raise ValueError(
-                f"gas_length {length} m must exceed the stroke {self.stroke} m: at "
-                "full stroke some gas is left"
+                f"gas_length: found {length:g} m, expected more than the stroke, "
+                f"{self.stroke:g} m: at full stroke some gas is left"
             )
         return self
 
@@ -264,15 +264,17 @@ class ShockAbsorber(Data):
             self.oil_bulk_modulus is not None,
             self.oil_volume is not None,
         ]
-        if any(given) and not (all(given) and self.piston_area is not None):
+        names = ("oil_bulk_modulus", "oil_volume", "piston_area")
+        lacking = [name for name in names if getattr(self, name) is None]
+        if any(given) and lacking:
             raise ValueError(
-                "oil_bulk_modulus: compressible oil needs oil_bulk_modulus, oil_volume "
-                "and piston_area"
+                f"{lacking[0]}: found none, expected oil_bulk_modulus, oil_volume and "
+                "piston_area together, for compressible oil"
             )
         if all(given) and 0.0 in (self.compression_damping, self.rebound_damping):
             raise ValueError(
-                "oil_bulk_modulus: compressible oil needs a damping > 0 in either "
-                "direction"
+                "oil_bulk_modulus: found beside a damping of 0, expected > 0 in either "
+                "direction for compressible oil"
             )
         return self
 

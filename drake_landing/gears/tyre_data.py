@@ -9,7 +9,14 @@ from pydantic import (
     model_validator,
 )
 
-from drake_landing.gears.fields import Data, InputFile, NotNegative, Positive, Table
+from drake_landing.gears.fields import (
+    Data,
+    InputFile,
+    NotNegative,
+    Positive,
+    Table,
+    one_of,
+)
 
 
 class Tyre(Data):
@@ -131,10 +138,9 @@ class Tyre(Data):
 
     @model_validator(mode="after")
     def _one_law(self) -> Self:
-        if (self.stiffness is None) == (self.load_table is None):
-            raise ValueError("give either stiffness or load_table")
-        if self.damping > 0.0 and self.damping_table is not None:
-            raise ValueError("give either damping or damping_table")
+        one_of(stiffness=self.stiffness, load_table=self.load_table)
+        if self.damping_table is not None:
+            one_of(damping=self.damping or None, damping_table=self.damping_table)
         return self
 
     @field_validator("magic_formula")
@@ -162,8 +168,9 @@ class Tyre(Data):
             raise ValueError(
                 f"inflation: found {self.inflation:g}, which needs width and pressure"
             )
-        if self.cornering_slope is not None and self.cornering_table is not None:
-            raise ValueError("give either cornering_slope or cornering_table")
+        if self.cornering_slope is not None:
+            table = self.cornering_table
+            one_of(cornering_slope=self.cornering_slope, cornering_table=table)
         stiff = self.fore_aft_stiffness is not None, self.lateral_stiffness is not None
         if self.carcass == "elastic" and not (all(stiff) or sized):
             raise ValueError(
@@ -186,7 +193,11 @@ class Tyre(Data):
     def _tables(self) -> Self:
         cornering = self.cornering_table
         if cornering and (cornering[0][0] < 0 or min(y for _, y in cornering) <= 0):
-            raise ValueError("cornering_table: loads >= 0 and values > 0 are expected")
+            raise ValueError(
+                f"cornering_table: found loads from {cornering[0][0]:g} N and values "
+                f"from {min(y for _, y in cornering):g} N/rad, expected loads >= 0 and "
+                "values > 0"
+            )
         if isinstance(self.rolling_radius, list):
             radii = [y for _, y in self.rolling_radius]
             if not 0.5 * self.radius < min(radii) <= max(radii) <= 1.1 * self.radius:

@@ -168,9 +168,9 @@ def test_bad_holds_are_refused(stay, message):
     ("stay", "message"),
     [
         ({"directions": []}, "at least 1 item"),
-        ({"directions": [(0, 0, 0)]}, "is none"),
-        ({"node": 102}, "node 102 is used twice"),
-        ({"damping": 1e3}, "needs a stiffness"),
+        ({"directions": [(0, 0, 0)]}, "expected a direction"),
+        ({"node": 102}, "found node 102 twice"),
+        ({"damping": 1e3}, "expected a stiffness"),
         ({"stiffness": -1.0}, "greater than 0"),
     ],
 )

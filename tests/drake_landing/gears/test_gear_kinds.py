@@ -374,19 +374,27 @@ def test_centre_of_gravity_of_a_steered_gear_is_that_of_its_bodies(kind):
         (levered_main, {"pivot": None}, "valid tuple"),
         (bogie_main, {"axle_positions": ()}, "at least 1 item"),
         (bogie_main, {"wheel_offsets": (0.4, 0.4)}, "strictly ascending"),
-        (bogie_main, {"pitch_damper": {"trim_deg": 9, "stop_deg": 5}}, "beyond the st"),
-        (levered_main, {"brake": {}}, "either torque or torque_table"),
+        (
+            bogie_main,
+            {"pitch_damper": {"trim_deg": 9, "stop_deg": 5}},
+            "within stop_deg",
+        ),
+        (
+            levered_main,
+            {"brake": {}},
+            "found none, expected one of torque, torque_table",
+        ),
         (
             levered_main,
             {"brake": {"torque_table": [(0, 1.0), (0, 2.0)]}},
-            "0 follows 0, expected strictly ascending",
+            "found 0 after 0, expected strictly ascending",
         ),
         (
             levered_main,
             {"brake": {"torque": 1.0, "anti_skid": {"onset": 0.3}}},
-            "release 0.2 must exceed the onset 0.3",
+            "release: found 0.2, expected more than the onset, 0.3",
         ),
-        (levered_main, {"attachment": "ball"}, "must hold 6 or more"),
+        (levered_main, {"attachment": "ball"}, "expected 6 or more"),
     ],
 )
 def test_bad_data_is_refused(gear, change, message):

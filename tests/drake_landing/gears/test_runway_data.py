@@ -55,7 +55,10 @@ def test_aircraft_stands_level_on_a_crown_and_rolls_over_the_rough():
     [
         ("crown: 1", "runway.crown: found 1, expected less than or equal to 0.1"),
         ("offset: 90", "runway.offset: found 90"),
-        ("profile: {kind: roughness}", "give either iso_class or intensity"),
+        (
+            "profile: {kind: roughness}",
+            "iso_class: found none, expected one of iso_class, in",
+        ),
         ("profile: {kind: roughness, iso_class: K}", "iso_class: found 'K'"),
         ("profile: {kind: roughness, intensity: 0}", "intensity: found 0"),
         (

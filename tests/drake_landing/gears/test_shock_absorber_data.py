@@ -98,7 +98,10 @@ MAP = "      damping_map: {strokes: [0, 0.2], rates: [1, 2]"
             BOTH + "      thermal_time: 5\n      gas_exponent: 1\n",
             "thermal_time: found beside gas_exponent 1",
         ),
-        (BOTH + "      oil_bulk_modulus: 1.0e+9\n", "needs oil_bulk_modulus, oil_vol"),
+        (
+            BOTH + "      oil_bulk_modulus: 1.0e+9\n",
+            "oil_volume: found none, expected oil_bulk",
+        ),
         (BOTH + "      oil_bulk_modulus: 1.4\n", "oil_bulk_modulus: found 1.4, exp"),
         (BOTH + "      oil_volume: -1\n", "oil_volume: found -1, expected greater"),
     ],

@@ -113,7 +113,7 @@ LINE = 1 + CASE[: CASE.index(TYRE)].count("\n")
         ("rolling_resistance: -1", "tyre.rolling_resistance: found -1, expected"),
         ("cornering_slope: 0", "tyre.cornering_slope: found 0, expected greater"),
         ("pneumatic_trail: -0.1", "tyre.pneumatic_trail: found -0.1, expected"),
-        ("cornering_table: [[0, 1], [1, 0]]", "values > 0 are expected"),
+        ("cornering_table: [[0, 1], [1, 0]]", "values > 0"),
         ("rolling_radius: [[0, 0.35], [0.1, 0.1]]", "found 0.1 to 0.35 m, expected"),
         ("magic_formula: no.tir", "tyre.magic_formula: found"),
         ("rolling_radius: middle", "rolling_radius"),
