@@ -154,7 +154,7 @@ class CurvedShell(Shell):
         return np.stack([of_u, turned], axis=-2).reshape(*of_u.shape[:2], -1)
 
     def covariant(self, p: Float64, k: int, m: int) -> tuple[Float64, Float64]:
-        """(e, q, 6 n) membrane strain and curvature; engineering shear for k != m."""
+        """(e, q, 6 n + i) membrane strain and curvature; engineering shear for k != m."""
         slope = self.surface.slopes(p)
         a, n = slope @ self.reference[:, None], slope @ self.directors[:, None]
 
@@ -166,15 +166,45 @@ class CurvedShell(Shell):
 
         zero = np.zeros((*a.shape[:2], slope.shape[2], 3))
         stretch = both(a)
-        return self._to_grids(stretch, zero), self._to_grids(both(n), stretch)
+        curvature = self._to_grids(both(n), stretch)
+        return (
+            self._beside(self._to_grids(stretch, zero), None),
+            self._beside(curvature, self._bubble_curvature(p, k, m)),
+        )
+
+    def _beside(self, of_grids: Float64, of_bubble: Float64 | None) -> Float64:
+        """(e, q, 6 n + i) operators on the grids, and on the rotations inside."""
+        if not self.surface.bubble:
+            return of_grids
+        if of_bubble is None:
+            of_bubble = np.zeros((*of_grids.shape[:2], 2))
+        return np.concatenate([of_grids, of_bubble], axis=2)
+
+    def _bubble_curvature(self, p: Float64, k: int, m: int) -> Float64 | None:
+        """(e, q, 2) of b = bubble times the axes at the centre."""
+        if not self.surface.bubble:
+            return None
+        along = self.surface.slopes(p) @ self.reference[:, None]
+        axes = self._centre.axes[:, 0]
+        towards = np.einsum("eqki,eji->eqkj", along, axes)
+        slope = self.surface.bubble_slopes(p)
+        part = slope[:, m, None] * towards[:, :, k]
+        return part if k == m else part + slope[:, k, None] * towards[:, :, m]
 
     def covariant_shear(self, p: Float64, towards: Float64) -> Float64:
-        """(e, q, 6 n) engineering shear with the normal along natural directions."""
+        """(e, q, 6 n + i) engineering shear with the normal along natural directions."""
         value = self.surface.values(p)
         slope = np.einsum("qk,qkn->qn", towards, self.surface.slopes(p))
         along, n = slope @ self.reference, value @ self.directors
-        return self._to_grids(
+        of_grids = self._to_grids(
             slope[..., None] * n[:, :, None], value[..., None] * along[:, :, None]
+        )
+        if not self.surface.bubble:
+            return of_grids
+        inside = self.surface.bubble_values(p)[:, None]
+        axes = self._centre.axes[:, 0]
+        return self._beside(
+            of_grids, inside * np.einsum("eqi,eji->eqj", along, axes)
         )
 
     @cached_property
@@ -186,6 +216,32 @@ class CurvedShell(Shell):
 
     def strain_operator(self, p: Float64) -> Float64:
         """(e, q, 8, 6 n) membrane, curvature, shear in the element axes at points."""
+        strain = self._with_inside(p)
+        if not self.surface.bubble:
+            return strain
+        size = self.dof.shape[1]
+        return strain[..., :size] + strain[..., size:] @ self._inside[:, None]
+
+    @cached_property
+    def _inside(self) -> Float64:
+        """(e, 2, 6 n) rotations inside, at rest under no load of their own."""
+        points, size = self.surface.points, self.dof.shape[1]
+        strain = self._with_inside(points)
+        modulus = self.resultant_matrix(points)
+        weight = self.surface.weights * self.base(points).area
+        inner = strain[..., size:]
+        force = np.einsum("eq,eqsi,eqst->eqit", weight, inner, modulus)
+        square, other = (
+            np.einsum("eqit,eqtn->ein", force, part)
+            for part in (inner, strain[..., :size])
+        )
+        # Membranes have no stiffness in bending: nothing turns inside.
+        none = np.einsum("eii->e", square) <= 0.0
+        square[none] = np.eye(2)
+        return -np.linalg.solve(square, np.where(none[:, None, None], 0.0, other))
+
+    def _with_inside(self, p: Float64) -> Float64:
+        """(e, q, 8, 6 n + i) strains of the grids and of the rotations inside."""
         at = self.base(p)
         turn = turned(self._centre, at)[:, :, 0]
         return self._assumed(p, at) + turn @ self._mean_correction[:, None]
@@ -234,8 +290,7 @@ class CurvedShell(Shell):
         total -= self._to_centre(
             outer, surface.weights * outer.area, self._assumed(surface.points, outer)
         )
-        if not surface.mean_shear:
-            total[:, 6:] = 0.0
+        total[:, 6:] = 0.0  # the shear of the quadrilateral is tied, see `Surface`
         return total / self.extent[:, None, None]
 
     def _to_centre(self, at: Base, weight: Float64, strain: Float64) -> Float64:

@@ -51,8 +51,9 @@ class Surface:
         edges: (m, 2) points where shear is taken, towards: (m, 2) natural directions.
         sides: (m,) edge that each lies on, -1: none.
         means: (s, m) samples of shear from these.
-        shears: powers of both components of shear; together as many as samples.
-        mean_shear: the mean shear is that of the displacements.
+        shears: powers of both components of shear, and turning: powers m of fields
+        (s m, -r m); together as many as samples.
+        bubble: powers of rotations that vanish on the edges, with coefficients.
         stress: (g, 2) points of which printed results are extrapolated by `printed`.
         even: element axes lie evenly about both tangents.
         whole: (w, 2) nodes of the interpolation where mid-sides are left out, and
@@ -71,10 +72,11 @@ class Surface:
     sides: tuple[int, ...]
     means: Float64
     shears: tuple[Powers, Powers]
-    mean_shear: bool
     stress: Float64
     printed: Powers
     even: bool
+    turning: Powers = ()
+    bubble: tuple[tuple[float, tuple[int, int]], ...] = ()
     whole: Float64 | None = None
     follow: Float64 | None = None
     straight: frozenset[int] = frozenset()
@@ -99,9 +101,27 @@ class Surface:
             nodes=self.nodes[kept],
             whole=self.nodes,
             follow=follow[:, kept],
-            mean_shear=self.mean_shear and all(present),
+            **self._without_bubble,
             straight=frozenset(np.flatnonzero(~np.asarray(present, bool)).tolist()),
         )
+
+    @property
+    def _without_bubble(self) -> dict[str, object]:
+        """Samples along the edges only: the mean inside is met by the bubble alone.
+
+        A triangle with fewer rotations on its edges would lock with both.
+        """
+        if not self.bubble:
+            return {}
+        kept = np.flatnonzero(np.asarray(self.sides) >= 0)
+        return {
+            "edges": self.edges[kept],
+            "towards": self.towards[kept],
+            "sides": tuple(np.asarray(self.sides)[kept].tolist()),
+            "means": np.eye(len(kept)),
+            "turning": (),
+            "bubble": (),
+        }
 
     @property
     def corners(self) -> int:
@@ -133,26 +153,34 @@ class Surface:
         """(q, c) linear shape functions of the corners."""
         return fitted(self.linear, self.nodes[: self.corners], p)
 
-    def shear_fit(self, p: Float64) -> Float64:
-        """(q, 2, s) covariant shear from its samples along the edges."""
-        first, second = self.shears
-        zero = [np.zeros((len(p), len(own))) for own in self.shears]
+    def bubble_values(self, p: Float64) -> Float64:
+        """(q,) the rotation inside, one at the middle."""
+        factors, powers = zip(*self.bubble)
+        return monomials(powers, p) @ np.array(factors)
+
+    def bubble_slopes(self, p: Float64) -> Float64:
+        """(q, 2) derivatives of `bubble_values`."""
+        factors, powers = zip(*self.bubble)
+        return _slopes(powers, p) @ np.array(factors)
+
+    def _shear_fields(self, p: Float64) -> Float64:
+        """(q, 2, s) fields of covariant shear."""
+        first, second = (monomials(own, p) for own in self.shears)
+        turn = monomials(self.turning, p) if self.turning else np.zeros((len(p), 0))
         rows = [
-            np.concatenate([monomials(first, p), zero[1]], axis=1),
-            np.concatenate([zero[0], monomials(second, p)], axis=1),
+            [first, np.zeros_like(second), p[:, 1:] * turn],
+            [np.zeros_like(first), second, -p[:, :1] * turn],
         ]
-        there = np.concatenate(
-            [
-                self.towards[:, :1] * monomials(first, self.edges),
-                self.towards[:, 1:] * monomials(second, self.edges),
-            ],
-            axis=1,
-        )
+        return np.stack([np.concatenate(row, axis=1) for row in rows], axis=1)
+
+    def shear_fit(self, p: Float64) -> Float64:
+        """(q, 2, s) covariant shear from its samples along the edges and inside."""
+        there = np.einsum("qk,qks->qs", self.towards, self._shear_fields(self.edges))
         same = np.equal.outer(self.sides, self.sides)
         whole = ~np.isin(self.sides, list(self.straight))
         same[whole] = np.eye(len(same))[whole]
         samples = self.means @ (same / same.sum(axis=1, keepdims=True))
-        return np.stack(rows, axis=1) @ np.linalg.inv(self.means @ there) @ samples
+        return self._shear_fields(p) @ np.linalg.inv(self.means @ there) @ samples
 
 
 def _products(first: int, second: int) -> Powers:
@@ -187,13 +215,22 @@ QUAD8 = Surface(
     sides=(0, 0, 2, 2, -1, -1, 3, 3, 1, 1, -1, -1),
     means=np.kron(np.eye(2), _FOUR_AND_MEAN),
     shears=((*_products(1, 1), (0, 2)), (*_products(1, 1), (2, 0))),
-    mean_shear=False,
     stress=_grid(_TWO, _TWO),
     printed=_products(1, 1),
     even=True,
 )
 _TRI = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 _ALONG = np.roll(_TRI, -1, axis=0) - _TRI
+_SIX_AND_MEANS = np.zeros((8, 12))
+_SIX_AND_MEANS[:6, :6] = np.eye(6)
+_SIX_AND_MEANS[6, 6:9] = _SIX_AND_MEANS[7, 9:] = 1.0 / 3.0
+# 13.5 b (1 + 27 b), b = r s (1 - r - s): at the three points of integration the work of
+# its curvatures on moments that vary linearly is that of its value on their shear.
+_BUBBLE = (
+    *((13.5 * k, own) for k, own in ((1, (1, 1)), (-1, (2, 1)), (-1, (1, 2)))),
+    *((364.5 * k, own) for k, own in ((1, (2, 2)), (1, (4, 2)), (1, (2, 4)),
+                                      (-2, (3, 2)), (-2, (2, 3)), (2, (3, 3)))),
+)  # fmt: skip
 _INNER = np.array([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]]) / 6.0
 # Degree four, six points (Strang and Fix).
 _A, _B = 0.445948490915965, 0.091576213509771
@@ -206,12 +243,15 @@ TRIA6 = Surface(
     points=_SIX,
     weights=0.5 * np.repeat([0.223381589678011, 0.109951743655322], 3),
     strains=((_INNER, _P1),) * 3,
-    edges=np.concatenate([_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)]),
-    towards=np.concatenate([_ALONG, _ALONG]),
-    sides=(0, 1, 2, 0, 1, 2),
-    means=np.eye(6),
+    edges=np.concatenate(
+        [*(_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)), _INNER, _INNER]
+    ),
+    towards=np.concatenate([_ALONG, _ALONG, np.repeat(np.eye(2), 3, axis=0)]),
+    sides=(0, 1, 2, 0, 1, 2, *[-1] * 6),
+    means=_SIX_AND_MEANS,
     shears=(_P1, _P1),
-    mean_shear=True,
+    turning=((1, 0), (0, 1)),
+    bubble=_BUBBLE,
     stress=_INNER,
     printed=_P1,
     even=False,
