@@ -114,6 +114,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         curved_shells.curved_roof,
         curved_shells.curved_hemisphere,
         curved_shells.plates_of_any_thickness,
+        curved_shells.shear_forces,
         curved_shells.pressurised_cylinder,
         curved_shells.single_elements,
     ),

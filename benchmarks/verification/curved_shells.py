@@ -122,7 +122,7 @@ def curved_roof() -> list[Row]:
 
     case = "Scordelis-Lo roof"
     return _converge(
-        case, "edge deflection", 0.3024, SOURCE, (1, 2, 4, 8), solve, 0.011
+        case, "edge deflection", 0.3024, SOURCE, (1, 2, 4, 8), solve, 0.016
     )
 
 
@@ -147,7 +147,21 @@ def curved_hemisphere() -> list[Row]:
         return float(statics(bulk)[first, 0])
 
     case, quantity = "hemisphere", "radial displacement"
-    return _converge(case, quantity, 0.094, SOURCE, (2, 4, 8, 16, 32), solve, 0.011)
+    return _converge(case, quantity, 0.094, SOURCE, (2, 4, 8, 16, 32), solve, 0.012)
+
+
+def supported_quarter(mesh: Mesh, thickness: float) -> Bulk:
+    """A quarter of a supported square plate 2 x 2 under pressure 1, E 1e7, nu 0.3."""
+    points, conn = mesh
+    x, y = points.T
+    bulk = curved_model(np.c_[points, 0.0 * x], conn, (1e7, 0.3, 0.0), thickness)
+    bulk.fix("126", np.full(len(x), True))
+    bulk.fix("5", x == 0)
+    bulk.fix("4", y == 0)
+    bulk.fix("34", x == 1)
+    bulk.fix("35", y == 1)
+    bulk.add("PLOAD4", 7, 1, 1.0, "", "", "", "THRU", len(conn))
+    return bulk
 
 
 def plates_of_any_thickness() -> list[Row]:
@@ -161,22 +175,61 @@ def plates_of_any_thickness() -> list[Row]:
         theirs = 1e3 * thickness**3 * mindlin_deflection(thickness)
 
         def solve(mesh: Mesh, t: float = thickness) -> float:
-            points, conn = mesh
-            x, y = points.T
-            xyz = np.c_[points, 0.0 * x]
-            bulk = curved_model(xyz, conn, (1e7, 0.3, 0.0), t)
-            bulk.fix("126", np.full(len(x), True))
-            bulk.fix("5", x == 0)
-            bulk.fix("4", y == 0)
-            bulk.fix("34", x == 1)
-            bulk.fix("35", y == 1)
-            bulk.add("PLOAD4", 7, 1, 1.0, "", "", "", "THRU", len(conn))
-            return float(1e3 * t**3 * statics(bulk)[0, 2])
+            return float(1e3 * t**3 * statics(supported_quarter(mesh, t))[0, 2])
 
         case = f"supported plate, thickness/side {thickness / 2:g},"
         quantity, source = "1e3 t^3 w of the centre", "Navier, Mindlin"
         rows += _converge(case, quantity, theirs, source, (2, 4, 8), solve, 0.002)
     return rows
+
+
+def shear_forces() -> list[Row]:
+    """Transverse shear forces of the same plate, against those of the series."""
+    rows = []
+    for thickness in (0.2, 2e-4):
+        case = f"supported plate, thickness/side {thickness / 2:g},"
+        quantity, source = "rms error of Q at centres over its peak", "Navier"
+        for k, card in enumerate(CARDS.values()):
+            for n in (2, 4, 8):
+                mesh = meshes(*rectangle(n, n))[k]
+                value = shear_error(mesh, thickness)
+                target = 0.02 if n == 8 else None
+                name = f"{case} {card}"
+                own = {"mesh": f"{n} x {n}", "target": target}
+                rows.append(figure(name, quantity, value, 0.0, source, **own))
+    return rows
+
+
+def shear_error(mesh: Mesh, thickness: float) -> float:
+    """Root mean square of the error of Q at the centres over the largest Q there."""
+    points, conn = mesh
+    bulk = supported_quarter(mesh, thickness)
+    results = run(bulk.deck(101, "SPC = 1\nLOAD = 7\nFORCE = ALL"))
+    table = f"static/1/element_force/{CARDS[conn.shape[1]]}"
+    own = np.stack([results.column(table, name) for name in ("tx", "ty")], axis=1)
+    corners = points[conn[:, : conn.shape[1] // 2]]
+    x = corners[:, 1] - corners[:, 0]
+    x /= np.linalg.norm(x, axis=1)[:, None]
+    if conn.shape[1] == 8:
+        x = np.tile([1.0, 0.0], (len(conn), 1))  # rectangles
+    ours = own[:, :1] * x + own[:, 1:] * np.stack([-x[:, 1], x[:, 0]], axis=1)
+    theirs = shear_of_series(corners.mean(axis=1))
+    worst = np.sqrt(((ours - theirs) ** 2).sum(axis=1).mean())
+    return float(worst / np.abs(theirs).max())
+
+
+def shear_of_series(at: np.ndarray) -> np.ndarray:
+    """(n, 2) transverse shear forces at points of the plate, M,x + M,y."""
+    m = np.arange(1, 120, 2)
+    first, second = (0.5 * np.pi * k for k in np.meshgrid(m, m))
+    load = 4.0 / (first * second) * np.sin(first) * np.sin(second)
+    size = load / (first**2 + second**2)
+    (sx, cx), (sy, cy) = (
+        (np.sin(wave * p[:, None, None]), np.cos(wave * p[:, None, None]))
+        for wave, p in zip((first, second), at.T)
+    )
+    forces = -size * first * sx * cy, -size * second * cx * sy
+    return np.stack([own.sum(axis=(1, 2)) for own in forces], axis=1)
 
 
 def mindlin_deflection(t: float) -> float:
@@ -238,7 +291,7 @@ def single_elements() -> list[Row]:
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     cases = (
         (square, 1.0, 120.0, (2, 6, 3), {2: 4.28522, 6: 3.572958, 5: 2.13403}, 0.01),
-        (square[[0, 1, 3]], 0.1, 1000.0, (2,), {2: 54.224995, 4: 17.653503}, 0.04),
+        (square[[0, 1, 3]], 0.1, 1000.0, (2,), {2: 54.224995, 4: 17.653503}, 0.02),
     )
     rows = []
     for corners, t, ratio, loaded, theirs, target in cases:

@@ -19,7 +19,9 @@ Transverse shear is sampled along the edges, at two points each, where any quadr
 deflection is met exactly, that of the quadrilateral also as a mean over its middle
 (MITC8); on an edge without its mid-side only the mean of both counts. Uniform parts are
 added such that uniform stress does the work that it does on the strains of the
-displacements. There is no spurious mode; with straight edges and mid-sides in their
+displacements. Rotations inside the triangle, condensed, give it the freedom that the
+mean of its shear takes (MITC7); without it shear forces of thin plates grow under
+refinement. There is no spurious mode; with straight edges and mid-sides in their
 middle uniform strains and curvatures are exact on any shape (patch test). Plates
 converge with the fourth order at any thickness; curved triangles are stiffer than
 quadrilaterals on coarse meshes.
@@ -27,8 +29,9 @@ quadrilaterals on coarse meshes.
 References: Huang and Hinton, A new nine node degenerated shell element with enhanced
 membrane and shear interpolation, IJNME 22 (1986); Park and Stanley, A curved C0 shell
 element based on assumed natural-coordinate strains, JAM 53 (1986); Bathe and Dvorkin,
-A formulation of general shell elements, IJNME 22 (1986). MSC Nastran's own elements
-integrate 2 x 2 points; theirs and these converge to the same.
+A formulation of general shell elements, IJNME 22 (1986); Bathe, Brezzi and Cho, The
+MITC7 and MITC9 plate bending elements, C&S 32 (1989), from memory. MSC Nastran's own
+elements integrate 2 x 2 points; theirs and these converge to the same.
 
 Element axes at a point: the orthogonal pair that lies evenly about the tangents of the
 quadrilateral; along the first tangent of the triangle. THETA counts from the first
@@ -60,6 +63,8 @@ from fem.properties.shell_section import ShellSection
 from fem.properties.shells import sections
 
 _RIGID_SHEAR = 1e-5  # of area / D: flexibility of plates without MID3, as good as none
+_BUBBLE_REST = 0.1  # of the curvature of rotations inside that is not linear
+_PAIRS = ((0, 0), (1, 1), (0, 1))  # of natural directions: strains 11, 22, 2 x 12
 _PIECE = 256  # elements that are integrated at a time
 SURFACES = {"CQUAD8": QUAD8, "CTRIA6": TRIA6}
 
@@ -154,7 +159,7 @@ class CurvedShell(Shell):
         return np.stack([of_u, turned], axis=-2).reshape(*of_u.shape[:2], -1)
 
     def covariant(self, p: Float64, k: int, m: int) -> tuple[Float64, Float64]:
-        """(e, q, 6 n + i) membrane strain and curvature; engineering shear for k != m."""
+        """(e, q, 6 n) membrane strain and curvature; engineering shear for k != m."""
         slope = self.surface.slopes(p)
         a, n = slope @ self.reference[:, None], slope @ self.directors[:, None]
 
@@ -166,33 +171,38 @@ class CurvedShell(Shell):
 
         zero = np.zeros((*a.shape[:2], slope.shape[2], 3))
         stretch = both(a)
-        curvature = self._to_grids(both(n), stretch)
-        return (
-            self._beside(self._to_grids(stretch, zero), None),
-            self._beside(curvature, self._bubble_curvature(p, k, m)),
-        )
+        return self._to_grids(stretch, zero), self._to_grids(both(n), stretch)
 
-    def _beside(self, of_grids: Float64, of_bubble: Float64 | None) -> Float64:
-        """(e, q, 6 n + i) operators on the grids, and on the rotations inside."""
-        if not self.surface.bubble:
-            return of_grids
-        if of_bubble is None:
-            of_bubble = np.zeros((*of_grids.shape[:2], 2))
-        return np.concatenate([of_grids, of_bubble], axis=2)
-
-    def _bubble_curvature(self, p: Float64, k: int, m: int) -> Float64 | None:
-        """(e, q, 2) of b = bubble times the axes at the centre."""
-        if not self.surface.bubble:
-            return None
+    def _bubble_curvature(self, p: Float64, k: int, m: int) -> Float64:
+        """(e, q, 2) of b = bubble times the element axes at the centre."""
         along = self.surface.slopes(p) @ self.reference[:, None]
-        axes = self._centre.axes[:, 0]
-        towards = np.einsum("eqki,eji->eqkj", along, axes)
+        towards = np.einsum("eqki,eji->eqkj", along, self._centre.axes[:, 0])
         slope = self.surface.bubble_slopes(p)
         part = slope[:, m, None] * towards[:, :, k]
         return part if k == m else part + slope[:, k, None] * towards[:, :, m]
 
+    def _with_bubble(self, p: Float64, plane: Sequence[Float64]) -> list[Float64]:
+        """`_plane` with columns for the rotations inside.
+
+        Linear parts of their curvatures do the work on moments that vary linearly. The
+        rest would stiffen, and shear forces of thin plates alternate: it keeps a
+        hundredth of its energy, which holds modes that have no other.
+        """
+        if not self.surface.bubble:
+            return list(plane)
+        found = []
+        for both, (k, m) in zip(plane, _PAIRS):
+            stretch, curvature = np.split(both, 2, axis=2)
+            whole = self._bubble_curvature(p, k, m)
+            six = self._bubble_curvature(self.surface.points, k, m)
+            linear = np.einsum("pq,eqi->epi", self.surface.projection(p), six)
+            inside = linear + _BUBBLE_REST * (whole - linear)
+            parts = [stretch, np.zeros_like(inside), curvature, inside]
+            found.append(np.concatenate(parts, axis=2))
+        return found
+
     def covariant_shear(self, p: Float64, towards: Float64) -> Float64:
-        """(e, q, 6 n + i) engineering shear with the normal along natural directions."""
+        """(e, q, 6 n + i) engineering shear with the normal, natural directions."""
         value = self.surface.values(p)
         slope = np.einsum("qk,qkn->qn", towards, self.surface.slopes(p))
         along, n = slope @ self.reference, value @ self.directors
@@ -203,9 +213,8 @@ class CurvedShell(Shell):
             return of_grids
         inside = self.surface.bubble_values(p)[:, None]
         axes = self._centre.axes[:, 0]
-        return self._beside(
-            of_grids, inside * np.einsum("eqi,eji->eqj", along, axes)
-        )
+        turned = inside * np.einsum("eqi,eji->eqj", along, axes)
+        return np.concatenate([of_grids, turned], axis=2)
 
     @cached_property
     def _samples(self) -> list[Float64]:
@@ -249,14 +258,14 @@ class CurvedShell(Shell):
     def _assumed(self, p: Float64, at: Base) -> Float64:
         """(e, q, 8, 6 n) strains from their samples."""
         fits = [fitted(powers, where, p) for where, powers in self.surface.strains]
-        plane = [f @ s for f, s in zip(fits, self._samples)]
+        plane = self._with_bubble(p, [f @ s for f, s in zip(fits, self._samples)])
         shear = np.einsum("qks,esn->eqkn", self.surface.shear_fit(p), self._samples[3])
         return _in_axes(at, self._bend(p, at), plane, shear)
 
     def _direct(self, p: Float64, at: Base) -> Float64:
         """(e, q, 8, 6 n) strains of the displacements and rotations themselves."""
         shear = [self.covariant_shear(p, np.tile(d, (len(p), 1))) for d in np.eye(2)]
-        plane = self._plane([p] * 3)
+        plane = self._with_bubble(p, self._plane([p] * 3))
         return _in_axes(at, self._bend(p, at), plane, np.stack(shear, axis=2))
 
     def _bend(self, p: Float64, at: Base) -> Float64:
@@ -266,8 +275,8 @@ class CurvedShell(Shell):
 
     def _plane(self, at: Sequence[Float64]) -> list[Float64]:
         """Covariant membrane strain beside curvature: 11, 22, 2 x 12."""
-        pairs = zip(at, ((0, 0), (1, 1), (0, 1)))
-        return [np.concatenate(self.covariant(p, k, m), axis=2) for p, (k, m) in pairs]
+        parts = [self.covariant(p, k, m) for p, (k, m) in zip(at, _PAIRS)]
+        return [np.concatenate(both, axis=2) for both in parts]
 
     @cached_property
     def _centre(self) -> Base:

@@ -163,6 +163,12 @@ class Surface:
         factors, powers = zip(*self.bubble)
         return _slopes(powers, p) @ np.array(factors)
 
+    def projection(self, p: Float64) -> Float64:
+        """(q, k) values at points of the nearest linear field to values at `points`."""
+        own = monomials(self.linear, self.points)
+        weighted = own.T * self.weights
+        return monomials(self.linear, p) @ np.linalg.solve(weighted @ own, weighted)
+
     def _shear_fields(self, p: Float64) -> Float64:
         """(q, 2, s) fields of covariant shear."""
         first, second = (monomials(own, p) for own in self.shears)
@@ -221,37 +227,31 @@ QUAD8 = Surface(
 )
 _TRI = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
 _ALONG = np.roll(_TRI, -1, axis=0) - _TRI
-_SIX_AND_MEANS = np.zeros((8, 12))
-_SIX_AND_MEANS[:6, :6] = np.eye(6)
-_SIX_AND_MEANS[6, 6:9] = _SIX_AND_MEANS[7, 9:] = 1.0 / 3.0
-# 13.5 b (1 + 27 b), b = r s (1 - r - s): at the three points of integration the work of
-# its curvatures on moments that vary linearly is that of its value on their shear.
-_BUBBLE = (
-    *((13.5 * k, own) for k, own in ((1, (1, 1)), (-1, (2, 1)), (-1, (1, 2)))),
-    *((364.5 * k, own) for k, own in ((1, (2, 2)), (1, (4, 2)), (1, (2, 4)),
-                                      (-2, (3, 2)), (-2, (2, 3)), (2, (3, 3)))),
-)  # fmt: skip
 _INNER = np.array([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]]) / 6.0
 # Degree four, six points (Strang and Fix).
 _A, _B = 0.445948490915965, 0.091576213509771
 _SIX = np.array([(a, b) for t in (_A, _B) for a, b in
                  ((t, t), (1 - 2 * t, t), (t, 1 - 2 * t))])  # fmt: skip
+_SIX_WEIGHTS = np.repeat([0.223381589678011, 0.109951743655322], 3)
+_EDGES_AND_MEANS = np.zeros((8, 18))
+_EDGES_AND_MEANS[:6, :6] = np.eye(6)
+_EDGES_AND_MEANS[6, 6:12] = _EDGES_AND_MEANS[7, 12:] = _SIX_WEIGHTS
 TRIA6 = Surface(
     nodes=np.concatenate([_TRI, _TRI + 0.5 * _ALONG]),
     powers=(*_P1, (2, 0), (1, 1), (0, 2)),
     linear=_P1,
     points=_SIX,
-    weights=0.5 * np.repeat([0.223381589678011, 0.109951743655322], 3),
+    weights=0.5 * _SIX_WEIGHTS,
     strains=((_INNER, _P1),) * 3,
     edges=np.concatenate(
-        [*(_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)), _INNER, _INNER]
+        [*(_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)), _SIX, _SIX]
     ),
-    towards=np.concatenate([_ALONG, _ALONG, np.repeat(np.eye(2), 3, axis=0)]),
-    sides=(0, 1, 2, 0, 1, 2, *[-1] * 6),
-    means=_SIX_AND_MEANS,
+    towards=np.concatenate([_ALONG, _ALONG, np.repeat(np.eye(2), 6, axis=0)]),
+    sides=(0, 1, 2, 0, 1, 2, *[-1] * 12),
+    means=_EDGES_AND_MEANS,
     shears=(_P1, _P1),
     turning=((1, 0), (0, 1)),
-    bubble=_BUBBLE,
+    bubble=((27.0, (1, 1)), (-27.0, (2, 1)), (-27.0, (1, 2))),
     stress=_INNER,
     printed=_P1,
     even=False,
