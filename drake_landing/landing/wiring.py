@@ -5,12 +5,14 @@ Drake's own picture shows every port of every system; this one only what is conn
 
 import subprocess
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from pydrake.systems.framework import Diagram
-from pydrake.systems.primitives import VectorLogSink
+from pydrake.systems.primitives import Demultiplexer, Multiplexer, VectorLogSink
 
+# Vectors put together and cut, which are but wires here.
+_WIRES = (Multiplexer, Demultiplexer)
 _HEAD = """digraph wiring {
 rankdir=LR; ranksep=0.9; nodesep=0.15;
 node [shape=box, style="rounded,filled", fillcolor="#eef3fa", color="#5c6773",
@@ -23,7 +25,7 @@ def wiring_dot(diagram: Diagram, without: Sequence[str] = ("energy_budget",)) ->
     """The systems of a diagram and their connections in the dot language.
 
     Connections between the same two systems are one arrow, labelled with the names of
-    the output ports.
+    the output ports; what only puts vectors together or cuts them is part of the arrow.
 
     Args:
         diagram: the diagram; loggers are left out.
@@ -32,16 +34,31 @@ def wiring_dot(diagram: Diagram, without: Sequence[str] = ("energy_budget",)) ->
 
     def shown(system: Any) -> bool:
         return (
-            not isinstance(system, VectorLogSink) and system.get_name() not in without
+            not isinstance(system, (VectorLogSink, *_WIRES))
+            and system.get_name() not in without
         )
+
+    inputs = defaultdict(list)
+    for (target, _), end in diagram.connection_map().items():
+        inputs[target.get_name()].append(end)
+
+    def sources(source: Any, port: Any) -> Iterator[tuple[Any, Any]]:
+        if not isinstance(source, _WIRES):
+            yield source, port
+            return
+        for before in inputs[source.get_name()]:
+            yield from sources(*before)
 
     systems = [system for system in diagram.GetSystems() if shown(system)]
     rank = {system.get_name(): i for i, system in enumerate(systems)}
     arrows = defaultdict(set)
-    for (target, _), (source, port) in diagram.connection_map().items():
-        if shown(source) and shown(target):
-            name = source.get_output_port(port).get_name()
-            arrows[rank[source.get_name()], rank[target.get_name()]].add(name)
+    for target in systems:
+        for end in inputs[target.get_name()]:
+            for source, port in sources(*end):
+                if shown(source):
+                    name = source.get_output_port(port).get_name()
+                    place = rank[source.get_name()], rank[target.get_name()]
+                    arrows[place].add(name)
     names = list(rank)
     lines = [f'"{name}";' for name in names]
     for (source, target), ports in sorted(arrows.items()):
