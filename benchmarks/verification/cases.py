@@ -123,7 +123,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         drilling_shells.cook_membrane,
         drilling_shells.sheet_cantilever,
     ),
-    "Joints": (joints.lap_joint,),
+    "Joints": (joints.lap_joint, joints.shell_in_solid),
     "Temperatures": (thermal.bimetal_plate,),
     "Linear buckling": (
         buckling.euler_columns,

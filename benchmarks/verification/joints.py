@@ -39,6 +39,35 @@ def lap_joint() -> list[Row]:
     return rows
 
 
+def shell_in_solid() -> list[Row]:
+    """A plate whose edge RSSCON clamps in a block of its height: one cantilever."""
+    bulk = Bulk("MAT1,1,7.+10,,0.\nPSOLID,1,1\nPSHELL,2,1,.2,1,,1")
+    x = np.array([0.0, 1.0])
+    bulk.grids(np.array([(xi, y, z) for z in (-0.1, 0.1) for y in x for xi in x]))
+    bulk.elements("CHEXA", 1, np.array([[0, 1, 3, 2, 4, 5, 7, 6]]))
+    first = bulk.grid_count
+    bulk.grids(np.array([(xi, y, 0.0) for y in x for xi in (1.0, 5.0)]))
+    shell = np.array([[first, first + 1, first + 3, first + 2]])
+    bulk.elements("CQUAD4", 2, shell)
+    bulk.add("RSSCON", 9, "ELEM", 2, 1)
+    bulk.add("SPC1", 1, 123, *(1, 3, 5, 7))
+    for grid in (first + 2, first + 4):
+        bulk.add("FORCE", 7, grid, 0, 500.0, 0.0, 0.0, 1.0)
+    results = run(bulk.deck(101, "SPC = 1\nLOAD = 7\nDISP = ALL"))
+    tip = results["static/1/displacement"][first + 1, 2]
+    exact = 1000.0 * 5.0**3 / (3.0 * 7e10 * 0.2**3 / 12.0)
+    return [
+        figure(
+            "plate clamped in a block (RSSCON)",
+            "tip",
+            float(tip),
+            exact,
+            "beam theory, one CHEXA and one CQUAD4",
+            target=2e-3,
+        )
+    ]
+
+
 def _joint(card: str) -> Bulk:
     """Strips of 1 width from -pitch and from 0, each of three elements, load 1."""
     bulk = Bulk(f"MAT1,1,{_YOUNG},,0.\nPSHELL,1,1,{_THICK}\nPSHELL,2,1,{_THICK}")

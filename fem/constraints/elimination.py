@@ -21,6 +21,7 @@ from fem.constraints.mpc import read_mpc
 from fem.constraints.rbe3 import read_rbe3
 from fem.constraints.rigid import read_rbe2
 from fem.constraints.rigid_bodies import read_bodies
+from fem.constraints.shell_to_solid import read_shell_to_solid
 from fem.constraints.spc import SinglePointConstraints, read_spc
 from fem.constraints.spline import read_splines
 from fem.errors import InputError
@@ -175,6 +176,7 @@ def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equatio
         lambda: read_bodies(deck, points),
         lambda: read_splines(deck, points),
         lambda: read_rbe3(deck, points),
+        lambda: read_shell_to_solid(deck, points),
         lambda: read_mpc(deck, points, mpc),
         lambda: read_feet(deck, points),
     ):

@@ -101,7 +101,6 @@ _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
     ),
     (("CPLSTN", "CPLSTS", "PPLANE"), "plane strain and plane stress solids are not"),
     (("PCOMPS", "PCOMPLS"), "layered solids are not"),
-    (("RSSCON",), "give RBE3 or a shell within the solids instead"),
 )
 
 

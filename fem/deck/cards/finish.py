@@ -103,6 +103,26 @@ def fastener(columns: Columns, problems: Problems) -> None:
             )
 
 
+def rsscon(columns: Columns, problems: Problems) -> None:
+    """Ids of elements and of grids apart."""
+    count = len(columns["type"])
+    names = ("s1", "a1", "b1", "s2", "a2", "b2")
+    for name in ("shell", "solid", *names):
+        columns[name] = [0] * count
+    for row, kind in enumerate(columns["type"]):
+        if kind == "ELEM":
+            columns["shell"][row] = columns["es1"][row]
+            columns["solid"][row] = columns["ea1"][row]
+        elif kind == "GRID":
+            for name in names:
+                columns[name][row] = columns[f"e{name}"][row]
+        else:
+            problems.append(
+                f"{_place(columns, row)}: RSSCON {columns['eid'][row]} field TYPE: "
+                f"found '{kind}', expected ELEM or GRID"
+            )
+
+
 def diameter(columns: Columns, problems: Problems, card: str) -> None:
     """A fastener or a weld is round, and has a size."""
     for row, d in enumerate(columns["d"]):

@@ -1,7 +1,7 @@
 """Rigid elements, constraints, sets of a reduction."""
 
 from fem.deck import conversions
-from fem.deck.cards import from_pynastran, lists, rigid_bodies
+from fem.deck.cards import finish, from_pynastran, lists, rigid_bodies
 from fem.deck.records.card import Card
 
 _GROUP, _SETS = "Rigid elements, constraints", "Sets of a reduction"
@@ -53,6 +53,16 @@ RECORDS = (
         group=_GROUP,
         read=rigid_bodies.rspline,
         more="eid:i ratio:f[1] grids:*>GRID comps:*",
+        ids="own",
+    ),
+    # ELEM: a shell and a solid; GRID: two grids of a shell, each with two of a solid.
+    Card(
+        name="RSSCON",
+        group=_GROUP,
+        fields="eid:i type:s=ELEM es1:i ea1:i eb1:i=0 es2:i=0 ea2:i=0 eb2:i=0",
+        finish=finish.rsscon,
+        more="shell:i>SURFACE solid:i>CHEXA|CPENTA|CTETRA|CPYRAM s1:i>GRID? a1:i>GRID? "
+        "b1:i>GRID? s2:i>GRID? a2:i>GRID? b2:i>GRID?",
         ids="own",
     ),
     # comps: integers, 0 for a scalar point
