@@ -17,6 +17,7 @@ from fem.errors import InputError
 _MOST_NODES = 100_000
 _DEEPEST = 40
 _LONGEST_NUMBER = 40  # characters
+_LARGEST = 1e30  # of any quantity; squares and cubes stay within double precision
 _INTEGER = re.compile(r"[-+]?\d+$|0x[\da-fA-F]+$|0o[0-7]+$")
 _FLOAT = re.compile(r"[-+]?(?:\.\d+|\d+(?:\.\d*)?)(?:[eE][-+]?\d+)?$")
 _UNBOUNDED = re.compile(r"[-+]?\.(?:inf|Inf|INF)$|\.(?:nan|NaN|NAN)$")
@@ -185,12 +186,14 @@ class _Reader:
         if len(text) > _LONGEST_NUMBER:
             return text
         if _INTEGER.match(text):
-            return int(text, 0) if text[:2] in ("0x", "0o") else int(text)
-        if not _FLOAT.match(text):
+            number = int(text, 0) if text[:2] in ("0x", "0o") else int(text)
+        elif _FLOAT.match(text):
+            number = float(text)
+        else:
             return text
-        number = float(text)
-        if number in (float("inf"), float("-inf")):
-            self.problem(node, path, f"found {text}, expected a finite number")
+        if abs(number) > _LARGEST:
+            expected = f"a number no larger than {_LARGEST:g}"
+            self.problem(node, path, f"found {text}, expected {expected}")
         return number
 
 
