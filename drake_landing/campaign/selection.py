@@ -155,7 +155,7 @@ def screening_errors(
         errors.append((found - own) / top)
         peaks.append(found.groupby(codes).max() / top.groupby(codes).max() - 1.0)
     if not errors:
-        return pd.DataFrame()
+        return pd.DataFrame(index=pd.Index([], name="component"))
     every, peak = pd.concat(errors, axis=1).abs(), pd.concat(peaks, axis=1)
     rows = {}
     for k, name in enumerate(names):

@@ -104,10 +104,17 @@ def _check_names(gears: Sequence[LandingGear], conditions: Conditions) -> None:
 
 def _role(name: str, rest: Posed, conditions: Conditions) -> Role:
     """Of a gear: off the middle main; in the middle by its place to those."""
-    if name in conditions.roles:
-        return conditions.roles[name]
     places = rest.places
     x, y, _ = places[name].ground
+    if name in conditions.roles:
+        role = conditions.roles[name]
+        if (role == "nose" and x > 0.0) or (role == "tail" and x < 0.0):
+            raise InputError(
+                f"conditions.roles.{name}: found {role}, but this gear is "
+                f"{abs(x):.3g} m {'aft' if x > 0.0 else 'ahead'} of the center of "
+                f"gravity, expected {'tail' if x > 0.0 else 'nose'} or main"
+            )
+        return role
     sides = [p.ground[0] for p in places.values() if abs(p.ground[1]) > _MIDDLE]
     if abs(y) > _MIDDLE or not sides:
         return "main"

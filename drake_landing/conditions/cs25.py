@@ -266,9 +266,9 @@ CS25: tuple[Paragraph, ...] = (
         rule="side and drag factors up to 50 and 40 % of the limit; braked roll: no "
         "less than of each inflated tire before; n 60, 50 %, no less than 1; tow 60, "
         "50 %",
-        does="static cases of turning, braked roll, towing",
+        does="static cases of turning, braked roll (where there are brakes), towing",
         cases=flat_tires25.flat_tire_handling,
-        needs=(needs_several_wheels, needs_brakes, needs_sides),
+        needs=(needs_several_wheels, needs_sides),
         design=("take_off",),
     ),
     Paragraph(

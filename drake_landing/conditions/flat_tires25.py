@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator
 
-from drake_landing.conditions.ground import BookCase, GroundAircraft, load
-from drake_landing.conditions.rolling25 import braked_drag
-from drake_landing.conditions.statics import resting
+from drake_landing.conditions.ground import BookCase, GroundAircraft
+from drake_landing.conditions.rolling25 import braked_roll
 from drake_landing.conditions.towing25 import towing
 from drake_landing.conditions.turning25 import turning
 
@@ -16,32 +15,16 @@ def flat_tire_handling(aircraft: GroundAircraft) -> Iterator[BookCase]:
     for flat, enough, tow, word in FLAT:
         if not any(gear.wheels >= enough for gear in aircraft.mains):
             continue
-        cases = [*turning(aircraft, 0.5), *_less_drag(aircraft, flat)]
+        # 40 % of the drag, no less than that of the tires which are inflated.
+        kept = {
+            g.name: max(0.4, 1.0 - flat / max(g.wheels, flat)) for g in aircraft.mains
+        }
+        braked = braked_roll(aircraft, kept) if aircraft.braked else ()
+        cases = [*turning(aircraft, 0.5), *braked]
         for case in cases:
             yield _renamed(case, "25.511(e)", f"{word} flat: {case.title}")
         for case in towing(aircraft, tow):
             yield _renamed(case, "25.511(f)", f"{word} flat: {case.title}")
-
-
-def _less_drag(aircraft: GroundAircraft, flat: int) -> Iterator[BookCase]:
-    """Braked roll, n = 1: 40 % of the drag, no less than that of the inflated tires."""
-    rest = dict(resting(aircraft, aircraft.mains))
-    share = aircraft.weight / sum(rest.values())
-    kept = {g: max(0.4, 1.0 - flat / max(g.wheels, flat)) for g in rest}
-    yield BookCase(
-        paragraph="25.493(b)(2)",
-        name="braked, main gears, n = 1",
-        loads=tuple(
-            load(
-                g,
-                "ground",
-                vertical=share * z,
-                drag=kept[g] * braked_drag(g, share * z),
-            )
-            for g, z in rest.items()
-        ),
-        pose="static",
-    )
 
 
 def _renamed(case: BookCase, paragraph: str, name: str) -> BookCase:

@@ -4,7 +4,7 @@ No lift. Where the ground's reactions do not balance the aircraft, its inertia d
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from drake_landing.conditions.ground import (
     BookCase,
@@ -35,14 +35,20 @@ def taxi(aircraft: GroundAircraft) -> Iterator[BookCase]:
     )
 
 
-def braked_roll(aircraft: GroundAircraft, factor: float = 1.0) -> Iterator[BookCase]:
+def braked_roll(
+    aircraft: GroundAircraft, kept: Mapping[str, float] = {}
+) -> Iterator[BookCase]:
     """25.493(b): drag 0.8 of the vertical load, or what the brakes give.
 
     (1) on all gears without pitching acceleration, (2) on the main gears alone.
+
+    Args:
+        aircraft: with brakes on a main gear.
+        kept: gear -> share of that drag (25.511(e)); others have all of it.
     """
-    n = BRAKED_FACTOR[aircraft.design] * factor
+    n = BRAKED_FACTOR[aircraft.design]
     if aircraft.nose or aircraft.tail:
-        loads = braked_reactions(aircraft, n * aircraft.weight)
+        loads = braked_reactions(aircraft, n * aircraft.weight, kept)
         name = "all gears, no pitching" if aircraft.nose else "all gears"
         yield BookCase(
             paragraph="25.493(b)(1)",
@@ -56,7 +62,12 @@ def braked_roll(aircraft: GroundAircraft, factor: float = 1.0) -> Iterator[BookC
         paragraph="25.493(b)(2)",
         name=f"braked, main gears, n = {n:g}",
         loads=tuple(
-            load(g, "ground", vertical=share * z, drag=braked_drag(g, share * z))
+            load(
+                g,
+                "ground",
+                vertical=share * z,
+                drag=kept.get(g.name, 1.0) * braked_drag(g, share * z),
+            )
             for g, z in rest.items()
         ),
         pose="static",
@@ -120,9 +131,18 @@ def braked_drag(gear: Gear, vertical: float) -> float:
     return min(FRICTION * vertical, gear.brake_torque / gear.radius)
 
 
-def braked_reactions(aircraft: GroundAircraft, weight: float) -> tuple[GearLoad, ...]:
-    """All gears on the ground under brakes, in equilibrium in pitch."""
+def braked_reactions(
+    aircraft: GroundAircraft, weight: float, kept: Mapping[str, float] = {}
+) -> tuple[GearLoad, ...]:
+    """All gears on the ground under brakes, in equilibrium in pitch.
+
+    Args:
+        aircraft: with brakes on a main gear.
+        weight: that the gears carry, N.
+        kept: gear -> share of the drag that friction or brakes give.
+    """
     limited: dict[str, float] = {}
+    ratio = {g.name: FRICTION * kept.get(g.name, 1.0) for g in aircraft.braked}
     places = aircraft.poses["static"]
     while True:
         free = [g for g in aircraft.braked if g.name not in limited]
@@ -130,7 +150,7 @@ def braked_reactions(aircraft: GroundAircraft, weight: float) -> tuple[GearLoad,
             aircraft.gears,
             places,
             weight,
-            ratios={gear.name: (FRICTION, 0.0) for gear in free},
+            ratios={gear.name: (ratio[gear.name], 0.0) for gear in free},
             further=[load(name, "ground", drag=d) for name, d in limited.items()],
         )
         over = [
@@ -138,8 +158,10 @@ def braked_reactions(aircraft: GroundAircraft, weight: float) -> tuple[GearLoad,
         ]
         if not over:
             break
-        limited |= {g.name: g.brake_torque / g.radius for g in over}
-    drag = {g.name: FRICTION * found[g.name] for g in aircraft.braked} | limited
+        limited |= {
+            g.name: kept.get(g.name, 1.0) * g.brake_torque / g.radius for g in over
+        }
+    drag = {name: share * found[name] for name, share in ratio.items()} | limited
     return tuple(
         load(g, "ground", vertical=found[g.name], drag=drag.get(g.name, 0.0))
         for g in aircraft.gears

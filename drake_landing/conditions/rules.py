@@ -21,7 +21,7 @@ _OF_LANDING = (LARGEST_UNKNOWN, TAIL_DOWN_UNKNOWN)
 
 
 def condition_figures(
-    conditions: Conditions, ground: OnGround
+    conditions: Conditions, ground: OnGround, *, landings: bool = True
 ) -> list[tuple[str, str]]:
     """Each paragraph with static cases: its largest loads, or why it has none.
 
@@ -29,6 +29,7 @@ def condition_figures(
         conditions: of the case.
         ground: the aircraft; where the largest vertical loads are not known, that is
             said instead of their figures.
+        landings: whether the landings that give them can be flown.
     """
     rows = []
     for paragraph in RULES[conditions.rules]:
@@ -36,9 +37,8 @@ def condition_figures(
             continue
         missing = paragraph.missing(ground.aircraft)
         if missing in _OF_LANDING:
-            rows.append(
-                (paragraph.number, "loads of the landing: conditions finds them")
-            )
+            found = "conditions finds them" if landings else "none without landings"
+            rows.append((paragraph.number, f"loads of the landing: {found}"))
         elif missing:
             rows.append((paragraph.number, f"none: {missing}"))
         else:

@@ -313,11 +313,13 @@ def _conditions(case: Case, aircraft: Aircraft, structure: Structure) -> Iterato
     R_AB = rotation_AB(case.airframe.axes)
     body = rigid_airframe(structure, aircraft.multibody_nodes, R_AB)
     ground = on_ground(body, aircraft.gears, R_AB, case.conditions)
-    rows = condition_figures(case.conditions, ground)
+    mass = loaded(structure, aircraft.gears).mass
+    story = landing_story(case.conditions, mass)
+    flown = not story.startswith("none")
+    rows = condition_figures(case.conditions, ground, landings=flown)
     known = set(case.conditions.vertical) >= {gear.name for gear in aircraft.gears}
     if not known:
-        mass = loaded(structure, aircraft.gears).mass
-        rows.insert(0, ("landings", landing_story(case.conditions, mass)))
+        rows.insert(0, ("landings", story))
     for i, (number, text) in enumerate(rows):
         yield _line("" if i else "conditions", f"{number:<16}{text}")
 

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import h5py
+import pandas as pd
 import pytest
 
 from drake_landing.campaign.confirm import confirmed_file
@@ -61,3 +62,10 @@ def test_transients_end_when_the_elements_that_matter_have_peaked(
     wanted = to_confirm(tmp_path, [0, 1], COMPONENT, {"skin": 0.01, "spar": 0.01})
     assert wanted.elements.to_dict() == {0: 2, 1: 1}
     assert wanted.last_peak.to_dict() == {0: 0.2, 1: 0.5}
+
+
+def test_airframes_without_a_sample_leave_the_errors_of_others(tmp_path: Path) -> None:
+    _landing(tmp_path, 0, [100.0, 9.0, 50.0, 7.0], [0.1, 0.1, 0.1, 0.1])
+    _transient(tmp_path, 0, [101.0, 9.0, 50.0, 7.0], until=0.4)
+    both = [screening_errors(tmp_path, own, COMPONENT, 0.99) for own in ([], [0])]
+    assert pd.concat(both).reset_index()["component"].tolist() == ["skin", "spar"]

@@ -173,6 +173,17 @@ def test_unknown_gears_in_conditions_are_refused():
         on_ground(None, case.gears, np.eye(3), case.conditions)
 
 
+def test_a_gear_ahead_of_the_center_of_gravity_is_no_tail_wheel():
+    with pytest.raises(InputError, match=r"roles.nose: found tail.*expected nose or"):
+        explain(tiny("\nconditions: {roles: {nose: tail}}\n"))
+
+
+def test_check_finds_no_loads_of_landings_that_cannot_be_flown():
+    text = explain(tiny("\nconditions: {rules: CS-23}\n"))
+    assert "landings        none: " in text
+    assert "loads of the landing: none without landings" in text
+
+
 def test_check_lists_conditions_with_figures_and_what_cannot_apply():
     text = explain(tiny())
     assert "25.493(b)       2 cases: largest drag" in text

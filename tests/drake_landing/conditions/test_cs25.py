@@ -235,8 +235,17 @@ def test_511_flat_tires():
     # Of twins one tire is left with its own drag, more than 40 % of both.
     braked = handling["one flat: 25.493(b)(2) braked, main gears, n = 1"]
     assert totals(braked)["left"] == approx(0.5 * 0.4 * W, 0, W / 2)
+    # All gears: 11 N = (1 + 0.4 * 3) M, with N + M = W.
+    every = handling["one flat: 25.493(b)(1) braked, all gears, no pitching, n = 1"]
+    assert totals(every)["left"] == approx(W / 6, 0, 5 * W / 12)
+    assert totals(every)["nose"] == approx(0, 0, W / 6)
     towed = handling["one flat: 25.509 towed at nose, aft, (ii) by inertia"]
     assert totals(towed)["nose"] == approx(0.6 * 0.15 * W, 0, W / 12)
+
+
+def test_511_without_brakes_turns_and_tows():
+    cases = flat_tires25.flat_tire_handling(transport(torque=0.0))
+    assert {c.name.split(": ")[1][:6] for c in cases} == {"25.495", "25.509"}
 
 
 def test_519_jacking_is_1_33_with_a_third_any_way():
