@@ -27,11 +27,11 @@ def _dim(x: float, y: float) -> float:
 
 
 def _rss(*x: float) -> float:
-    return math.sqrt(sum(v * v for v in x))
+    return math.sqrt(math.fsum(v * v for v in x))
 
 
 FUNCTIONS: dict[str, Callable[..., float]] = {
-    "ABS": abs,
+    "ABS": math.fabs,
     "ACOS": math.acos,
     "ACOSH": math.acosh,
     "ASIN": math.asin,
@@ -39,7 +39,7 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "ATAN": math.atan,
     "ATAN2": math.atan2,
     "ATANH": math.atanh,
-    "AVG": lambda *x: sum(x) / len(x),
+    "AVG": lambda *x: math.fsum(x) / len(x),
     "COS": math.cos,
     "COSH": math.cosh,
     "DIM": _dim,
@@ -47,17 +47,17 @@ FUNCTIONS: dict[str, Callable[..., float]] = {
     "LOG": math.log,
     "LOG10": math.log10,
     "LOGX": lambda base, x: math.log(x) / math.log(base),
-    "MAX": max,
-    "MIN": min,
+    "MAX": lambda *x: max(x),
+    "MIN": lambda *x: min(x),
     "MOD": math.fmod,
     "PI": lambda x: math.pi * x,
     "RSS": _rss,
-    "SIGN": lambda x, y: math.copysign(x, y),
+    "SIGN": math.copysign,
     "SIN": math.sin,
     "SINH": math.sinh,
     "SQRT": math.sqrt,
-    "SSQ": lambda *x: sum(v * v for v in x),
-    "SUM": lambda *x: sum(x),
+    "SSQ": lambda *x: math.fsum(v * v for v in x),
+    "SUM": lambda *x: math.fsum(x),
     "TAN": math.tan,
     "TANH": math.tanh,
 }
