@@ -19,6 +19,7 @@ DEFAULTS: dict[str, Value] = {
     "CP2": 1.0,
     "COUPMASS": -1,
     "DFREQ": 1e-5,
+    "ENFMOTN": "ABS",
     "EPZERO": 1e-8,
     "G": 0.0,
     "GRDPNT": -1,

@@ -67,6 +67,12 @@ def solve_frequencies(
         excitation = harmonic_excitation(
             model.deck, model.points, case, hertz, model.matrices.mass
         )
+        relative = str(model.deck.param("ENFMOTN")).upper().startswith("REL")
+        if relative and excitation.motion.nnz:
+            options.console.say(
+                f"warning: subcase {case.id}: PARAM,ENFMOTN,REL asks for motions "
+                "relative to the base; those written here are absolute"
+            )
         if basis is None:
             u_g = _direct(model, hertz, excitation, options)
         else:

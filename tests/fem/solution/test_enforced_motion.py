@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 import fem
+from fem.cli import _status
 from fem.errors import InputError
 from fem.solution import run_deck
 
@@ -137,6 +138,14 @@ def test_motion_that_cannot_be_is_named(solve, old, new, message):
     bulk = OSCILLATOR.replace(old, new) + "RLOAD1,5,9,,,7,,VELO"
     with pytest.raises(InputError, match=message):
         solve(108, CASE, bulk)
+
+
+def test_motions_are_absolute_and_said(tmp_path, capsys):
+    bulk = OSCILLATOR + "RLOAD1,5,9,,,7,,DISP\nPARAM,ENFMOTN,REL\n"
+    path = tmp_path / "deck.bdf"
+    path.write_text(f"SOL 108\nCEND\n{CASE}BEGIN BULK\n{bulk}ENDDATA\n")
+    assert _status([str(path), "--out", str(tmp_path / "out")]) == 0
+    assert "those written here are absolute" in capsys.readouterr().out
 
 
 def test_spc_with_a_value_moves_as_well(solve):
