@@ -1,13 +1,15 @@
 """Mass cases: the deck of a loading, and whether it weighs what it should.
 
-The deck of a mass case is written out, its INCLUDEs in place, with the point masses
-that the case adds, scales and leaves out. Everything that starts from the aircraft's
+The deck of a mass case is written out, with the point masses that the case adds, scales
+and leaves out. What INCLUDE files hold stays in files of the same names, since elements
+have components by the names of their files. Everything that starts from the aircraft's
 deck, the decks of landing and static cases among it, has that mass.
 """
 
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import groupby
 from pathlib import Path
 
 import numpy as np
@@ -35,7 +37,7 @@ def write_mass_case(source: Path, given: MassCase, path: Path, field: str) -> No
     Args:
         source: the deck.
         given: what changes.
-        path: of the file to write.
+        path: of the file to write; its INCLUDEs are written below `<stem>_includes`.
         field: of the case, `airframe.mass_cases.<name>`, for messages.
 
     Raises:
@@ -78,7 +80,7 @@ def write_mass_case(source: Path, given: MassCase, path: Path, field: str) -> No
     with written_aside(path) as part, part.open("w", encoding="utf-8") as file:
         lines = [
             *_head(sections, given.massset),
-            *(x.text for x in without_cards(sections.bulk, changed)),
+            *_with_includes(without_cards(sections.bulk, changed), source, path),
             *scaled,
             *(x.text for x in added if not x.text.upper().startswith("ENDDATA")),
         ]
@@ -101,6 +103,20 @@ def _head(sections: Sections, massset: int | None) -> Iterator[str]:
         if massset is None or canonical(word) != "MASSSET":
             yield line.text
     yield "BEGIN BULK"
+
+
+def _with_includes(lines: list[Line], source: Path, path: Path) -> Iterator[str]:
+    """The lines of the deck itself; those of other files are written, and included."""
+    folder = path.with_name(f"{path.stem}_includes")
+    pieces = groupby(lines, key=lambda line: line.file)
+    for number, (file, piece) in enumerate(pieces):
+        if Path(file).resolve() == source.resolve():
+            yield from (line.text for line in piece)
+            continue
+        copy = folder / str(number) / Path(file).name
+        with written_aside(copy) as part:
+            part.write_text("".join(f"{x.text}\n" for x in piece), encoding="utf-8")
+        yield f"INCLUDE '{copy.relative_to(path.parent).as_posix()}'"
 
 
 def _factor(given: MassCase, number: int) -> float:

@@ -49,6 +49,29 @@ def test_three_mass_cases_weigh_what_they_add_scale_and_leave_out(tmp_path):
     assert found["none"] == pytest.approx(total - own[two])
 
 
+def test_elements_keep_the_names_of_their_files(tmp_path):
+    """Components go by them; a file that is interrupted by another one, too."""
+    text = (HERE / "tiny_aircraft.bdf").read_text()
+    control, bulk = text.split("BEGIN BULK\n")
+    lines = bulk.splitlines(keepends=True)
+    bars = [line for line in lines if line.startswith("CBAR")]
+    outer = "".join(bars[:2]) + "INCLUDE 'inner.inc'\n" + "".join(bars[4:])
+    (tmp_path / "outer.inc").write_text(outer)
+    (tmp_path / "inner.inc").write_text("".join(bars[2:4]))
+    rest = "".join(line for line in lines if line not in bars)
+    deck = tmp_path / "main.bdf"
+    deck.write_text(f"{control}BEGIN BULK\nINCLUDE 'outer.inc'\n{rest}")
+    (tmp_path / "fuel.bdf").write_text("CONM2,9001,24,,30.\n")
+    given = f"  deck: {deck}\n  mass_cases: {{full: {{add: fuel.bdf}}}}\n"
+    text = TINY.replace("  deck: tiny_aircraft.bdf\n", given + "  mass_case: full\n")
+    aircraft = prepare_aircraft(parse_case(text, folder=tmp_path), tmp_path / "out")
+    cards = aircraft.read(aircraft.deck).cards
+    files = [Path(file).name for file in cards["CBAR"].file]
+    plain = aircraft.read(deck).cards["CBAR"]
+    assert files == [Path(file).name for file in plain.file]
+    assert files.count("inner.inc") == 2
+
+
 def test_stiffness_is_that_of_the_deck(tmp_path):
     (tmp_path / "fuel.bdf").write_text("CONM2,9001,24,,30.\n")
     given = "  mass_cases: {full: {add: fuel.bdf}}\n  mass_case: full\n"
