@@ -63,6 +63,8 @@ def on_ground(
             largest[gear.name] = _deflections(gear, peaks.all_wheels, at_rest)
     tail_down = {g.name: _deflections(g, peaks.tail_down, at_rest) for g in gears}
     poses["largest"] = stand.at(largest, level)
+    every = {g.name: _deflections(g, peaks.all_wheels, at_rest) for g in gears}
+    poses["all_wheels"] = stand.on_all_wheels(every)
     poses["reduced"] = stand.at({n: d.scaled(0.75) for n, d in largest.items()}, level)
     poses["tail_down"] = stand.at(tail_down, down)
     poses["extended"] = stand.at(stand.extended(), level)

@@ -19,7 +19,11 @@ from drake_landing.conditions.ground import (
 )
 from drake_landing.conditions.landing25 import SIDES
 from drake_landing.conditions.paragraph import largest
-from drake_landing.conditions.rolling25 import braked_drag, braked_reactions
+from drake_landing.conditions.rolling25 import (
+    braked_drag,
+    braked_reactions,
+    brakes_note,
+)
 from drake_landing.conditions.statics import at_rest, reactions, resting
 from drake_landing.conditions.towing25 import POUND_FORCE, towing
 from drake_landing.conditions.turning25 import pivoting
@@ -76,7 +80,7 @@ def level(aircraft: GroundAircraft) -> Iterator[BookCase]:
     if aircraft.nose is None:
         return
     ratios = {g.name: (ratio, 0.0) for g in aircraft.gears}
-    places = aircraft.poses["largest"]
+    places = aircraft.poses["all_wheels"]
     found = reactions(aircraft.gears, places, total, ratios=ratios, at="axle")
     yield BookCase(
         paragraph="23.479",
@@ -85,7 +89,7 @@ def level(aircraft: GroundAircraft) -> Iterator[BookCase]:
             load(g, "axle", vertical=found[g.name], drag=ratio * found[g.name])
             for g in aircraft.gears
         ),
-        pose="largest",
+        pose="all_wheels",
         lift=LIFT,
     )
 
@@ -171,21 +175,25 @@ def side(aircraft: GroundAircraft) -> Iterator[BookCase]:
 def braked_roll(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """23.493: n = 1.33, drag 0.8 of the vertical load or what the brakes give."""
     total = BRAKED_N * aircraft.weight
+    loads = tuple(
+        load(g, "ground", vertical=z, drag=braked_drag(g, z))
+        for g, z in _shared(aircraft, total).items()
+    )
     yield BookCase(
         paragraph="23.493",
         name="braked, main gears",
-        loads=tuple(
-            load(g, "ground", vertical=z, drag=braked_drag(g, z))
-            for g, z in _shared(aircraft, total).items()
-        ),
+        loads=loads,
         pose="static",
+        note=brakes_note(aircraft, loads),
     )
     if aircraft.nose:
+        loads = braked_reactions(aircraft, total)
         yield BookCase(
             paragraph="23.493",
             name="braked, all gears",
-            loads=braked_reactions(aircraft, total),
+            loads=loads,
             pose="static",
+            note=brakes_note(aircraft, loads),
         )
 
 
@@ -269,6 +277,7 @@ def jacking(aircraft: GroundAircraft) -> Iterator[BookCase]:
                     vertical=JACK * z,
                     drag=JACK_SIDE * x * z,
                     side=JACK_SIDE * y * z,
+                    what="jack",
                 )
                 yield BookCase(
                     paragraph="23.507",

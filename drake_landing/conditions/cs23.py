@@ -59,7 +59,8 @@ CS23: tuple[Paragraph, ...] = (
         title="level landing",
         rule="nose wheel clear, and all wheels with inclined reactions; drag K n W of "
         "Appendix C, K = 0.25 to 0.33",
-        does="static cases, at the axle",
+        does="static cases, at the axle; nose wheel clear at level_pitch, all wheels "
+        "in the attitude in which they stand on the ground",
         cases=cases.level,
         needs=_LANDING,
     ),

@@ -57,7 +57,8 @@ CS25: tuple[Paragraph, ...] = (
         rule="in addition: the largest vertical load with a drag of at least 25 % of "
         "it, at the axle",
         unsure="at the axle",
-        does="static cases: main gears, all gears",
+        does="static cases: main gears at level_pitch, all gears in the attitude in "
+        "which all wheels stand on the ground",
         cases=landing.level_drag,
         needs=_LANDING,
     ),
@@ -136,7 +137,8 @@ CS25: tuple[Paragraph, ...] = (
         rule="n = 1.2 at the landing, 1.0 at the ramp weight; drag 0.8 of the "
         "vertical load at braked wheels, less where the brakes give less; (1) all "
         "gears, no pitching acceleration, (2) main gears, pitching by inertia",
-        does="static cases (1) and (2)",
+        does="static cases (1) and (2); the remark says where the brakes limit the "
+        "drag",
         cases=rolling25.braked_roll,
         needs=(needs_mains, needs_brakes),
     ),
@@ -210,7 +212,8 @@ CS25: tuple[Paragraph, ...] = (
         rule="about one main gear with locked brakes, n = 1, friction 0.8, static "
         "equilibrium of loads at the ground",
         does="static cases: torque 0.8 Z times the wheels' mean distance from their "
-        "middle, held by side loads of nose and locked gear",
+        "middle, held by side loads of nose and locked gear; named by the way in which "
+        "that torque turns the nose",
         cases=turning25.pivoting,
         needs=(needs_brakes, needs_several_wheels),
         design=("take_off",),

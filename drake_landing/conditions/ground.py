@@ -16,12 +16,15 @@ from fem.arrays import Float64
 
 Role = Literal["nose", "main", "tail"]
 Weight = Literal["landing", "take_off"]
-PoseName = Literal["static", "largest", "reduced", "tail_down", "extended"]
+PoseName = Literal[
+    "static", "largest", "all_wheels", "reduced", "tail_down", "extended"
+]
 At = Literal["ground", "axle", "unsprung"]
 
 STATES: dict[PoseName, str] = {
     "static": "at rest: static deflections and attitude",
     "largest": "level, deflections of the largest vertical load",
+    "all_wheels": "all wheels on the ground, deflections of the landing on all wheels",
     "reduced": "level, 75 % of the deflections of the largest vertical load",
     "tail_down": "tail-down, deflections of the largest vertical load",
     "extended": "level, gears extended, off the ground",

@@ -5,12 +5,14 @@ vertical loads are those of a landing at the sink rate of the design weight.
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from drake_landing.conditions.ground import (
     BookCase,
     Gear,
     GearLoad,
     GroundAircraft,
+    PoseName,
     load,
 )
 from drake_landing.conditions.paragraph import largest
@@ -25,7 +27,9 @@ SIDES = ((1.0, "starboard"), (-1.0, "port"))
 def level_drag(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """25.479(d)(1): the largest vertical load with a quarter of it aft, at the axle."""
 
-    def one(gears: tuple[Gear, ...], name: str, of: str) -> BookCase:
+    def one(
+        gears: tuple[Gear, ...], name: str, of: str, pose: PoseName = "largest"
+    ) -> BookCase:
         return BookCase(
             paragraph="25.479(d)(1)",
             name=name,
@@ -34,14 +38,14 @@ def level_drag(aircraft: GroundAircraft) -> Iterator[BookCase]:
                 for g in gears
                 for z in [largest(g, of=of)]
             ),
-            pose="largest",
+            pose=pose,
             lift=1.0,
         )
 
     yield one(aircraft.mains, "level, main gears", "largest")
     if aircraft.nose and all(g.all_wheels for g in (aircraft.nose, *aircraft.mains)):
         touching = (aircraft.nose, *aircraft.mains)
-        yield one(touching, "level, all gears", "all_wheels")
+        yield one(touching, "level, all gears", "all_wheels", "all_wheels")
 
 
 def drift(aircraft: GroundAircraft) -> Iterator[BookCase]:
@@ -132,6 +136,7 @@ def rebound(aircraft: GroundAircraft) -> Iterator[BookCase]:
                     * g.unsprung
                     * aircraft.gravity
                     * places[g.name].extension,
+                    what="20 g on the unsprung parts",
                 )
                 for g in gears
             ),
@@ -172,11 +177,10 @@ def _flat(
         force = one.force * (factor if one.gear in less else 1.0)
         if whole:  # 100 % of the vertical load
             force[2] = one.force[2]
-        loads.append(GearLoad(gear=one.gear, at=one.at, force=force))
-    return BookCase(
+        loads.append(replace(one, force=force))
+    return replace(
+        case,
         paragraph="25.511(d)",
-        name=f"{flat} flat: {case.title}",
+        name=f"{'one' if flat == 1 else 'two'} flat: {case.title}",
         loads=tuple(loads),
-        pose=case.pose,
-        lift=case.lift,
     )

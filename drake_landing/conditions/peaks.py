@@ -5,6 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from drake_landing.airframe.gear_places import pitch_of_all
+from drake_landing.case.axes import gear_in_A
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.design_values import LEVEL_FACTOR, touchdown_speeds
 from drake_landing.case.scenario import Scenario
@@ -88,7 +90,7 @@ def landing_peaks(
     """
     attitudes = {
         "level": conditions.level_pitch,
-        "all_wheels": 0.0,
+        "all_wheels": _pitch_of_all(gears, R_AB),
         "tail_down": conditions.tail_down_pitch,
     }
     simulation = Simulation(duration=_DURATION)
@@ -107,6 +109,12 @@ def landing_peaks(
             for gear in gears
         }
     return Peaks(**found)
+
+
+def _pitch_of_all(gears: Sequence[LandingGear], R_AB: Float64) -> float:
+    """At which all wheels touch at once, deg; 0: no such pitch."""
+    pitch = pitch_of_all([gear_in_A(gear, R_AB) for gear in gears])
+    return float(np.clip(np.degrees(pitch or 0.0), -20.0, 30.0))  # of a scenario
 
 
 def landing_speeds(conditions: Conditions, *, tail_down: bool) -> tuple[float, ...]:

@@ -1,7 +1,8 @@
 """Where wheels, axles and masses of the gears are in the poses of the rules.
 
 The gears' multibody model is put there on a rigid airframe, so that every kind of gear
-is where its kinematics put it. The deflections at rest are those of its state of rest.
+is where its kinematics put it. The deflections at rest are those of its state of rest,
+on the rigid airframe, too: the loads of all cases are those of a rigid aircraft.
 """
 
 from collections.abc import Mapping, Sequence
@@ -17,11 +18,14 @@ from drake_landing.gears.data import LandingGear
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.initial_state import attitude, set_initial_state
 from drake_landing.landing.run import build_landing, start_state
+from drake_landing.transient.practices import rigid
 from fem.arrays import Float64
 from systems.airframe.modal_body import ModalBody
 from systems.tools.rotations import rotation_from_quaternion
 
 _STEP = 1e-4  # m of stroke, for the direction of extension
+_LEVEL = 1e-12  # rad, of the attitude on all wheels
+_TRIES = 20
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -60,6 +64,16 @@ class Posed:
     whole: RigidMass
     gears: dict[str, RigidMass]
 
+    @property
+    def pitch(self) -> float:
+        """Nose up, rad."""
+        return float(np.arctan2(-self.R_AG[0, 2], self.R_AG[2, 2]))
+
+    @property
+    def height(self) -> float:
+        """Of the centre of gravity above the lowest tire's ground, m."""
+        return -min(float(place.ground[2]) for place in self.places.values())
+
 
 class GearStand:
     """The gears on a rigid airframe, to be put into poses.
@@ -82,7 +96,7 @@ class GearStand:
             {"start": "rolling", "forward_speed": 0.0, "lift": "none"}
         )
         self.landing: LandingDiagram = build_landing(
-            body, plain, {}, R_AB, self._rolling
+            rigid(body), plain, {}, R_AB, self._rolling
         )
         self.airframe = RigidMass(
             mass=body.mass, center=np.array(body.p_BG), inertia=body.inertia_G
@@ -115,6 +129,21 @@ class GearStand:
         """
         self._put({name: d.stroke for name, d in deflections.items()})
         return self._posed(deflections, attitude(0.0, pitch, 0.0).T)
+
+    def on_all_wheels(self, deflections: Mapping[str, Deflections]) -> Posed:
+        """Foremost and aftmost gear on the ground together, deflected as given."""
+        pitch = 0.0
+        for _ in range(_TRIES):
+            posed = self.at(deflections, pitch)
+            points = sorted(
+                (p.ground for p in posed.places.values()), key=lambda p: p[0]
+            )
+            rise = points[-1] - points[0]
+            change = float(np.arctan2(rise[2], rise[0])) if rise[0] > 0.0 else 0.0
+            if abs(change) < _LEVEL:
+                break
+            pitch += change
+        return posed
 
     def extended(self) -> dict[str, Deflections]:
         """No deflections."""

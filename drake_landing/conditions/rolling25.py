@@ -4,7 +4,7 @@ No lift. Where the ground's reactions do not balance the aircraft, its inertia d
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from drake_landing.conditions.ground import (
     BookCase,
@@ -49,28 +49,32 @@ def braked_roll(
     n = BRAKED_FACTOR[aircraft.design]
     if aircraft.nose or aircraft.tail:
         loads = braked_reactions(aircraft, n * aircraft.weight, kept)
+        note = brakes_note(aircraft, loads, kept=kept)
         name = "all gears, no pitching" if aircraft.nose else "all gears"
         yield BookCase(
             paragraph="25.493(b)(1)",
             name=f"braked, {name}, n = {n:g}",
             loads=loads,
             pose="static",
+            note=note,
         )
     rest = dict(resting(aircraft, aircraft.mains))
     share = n * aircraft.weight / sum(rest.values())
+    loads = tuple(
+        load(
+            g,
+            "ground",
+            vertical=share * z,
+            drag=kept.get(g.name, 1.0) * braked_drag(g, share * z),
+        )
+        for g, z in rest.items()
+    )
     yield BookCase(
         paragraph="25.493(b)(2)",
         name=f"braked, main gears, n = {n:g}",
-        loads=tuple(
-            load(
-                g,
-                "ground",
-                vertical=share * z,
-                drag=kept.get(g.name, 1.0) * braked_drag(g, share * z),
-            )
-            for g, z in rest.items()
-        ),
+        loads=loads,
         pose="static",
+        note=brakes_note(aircraft, loads, kept=kept),
     )
 
 
@@ -82,7 +86,8 @@ def sudden_braking(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """
     nose = aircraft.nose
     assert nose is not None
-    steady = {one.gear: one for one in braked_reactions(aircraft, aircraft.weight)}
+    braked = braked_reactions(aircraft, aircraft.weight)
+    steady = {one.gear: one for one in braked}
     down = sudden_nose_load(aircraft)
     mains = sum(steady[g.name].force[2] for g in aircraft.mains)
     share = (aircraft.weight - down) / mains
@@ -96,12 +101,68 @@ def sudden_braking(aircraft: GroundAircraft) -> Iterator[BookCase]:
         )
         for gear in aircraft.mains
     ]
+    notes = (
+        f"f = {dynamic_factor(aircraft.pitch_damping):.3g}",
+        f"drag of the steady braked roll, {drag_shares(loads)}: the nose gear's "
+        "increment relieves the main gears",
+        brakes_note(aircraft, braked),
+    )
     yield BookCase(
         paragraph="25.493(e)",
         name="brakes at once",
         loads=tuple(loads),
         pose="static",
-        note=f"f = {dynamic_factor(aircraft.pitch_damping):.3g}",
+        note="; ".join(filter(None, notes)),
+    )
+
+
+def drag_shares(loads: Sequence[GearLoad]) -> str:
+    """Drag over vertical load of the gears that have drag, in words."""
+    shares: dict[str, list[str]] = {}
+    for one in loads:
+        drag, _, vertical = one.force
+        if drag:
+            shares.setdefault(f"{abs(drag) / vertical:.2f}", []).append(one.gear)
+    return ", ".join(
+        f"{share} of the vertical load ({', '.join(gears)})"
+        for share, gears in shares.items()
+    )
+
+
+def brakes_note(
+    aircraft: GroundAircraft,
+    loads: Sequence[GearLoad],
+    *,
+    wanted: float = FRICTION,
+    factor: float = 1.0,
+    kept: Mapping[str, float] = {},
+) -> str:
+    """Which drags the brakes limit to less than the share that the rule asks for.
+
+    Args:
+        aircraft: whose brakes.
+        loads: of the braked case.
+        wanted: drag over vertical load where brakes suffice.
+        factor: of the torque.
+        kept: gear -> share of either that it keeps.
+    """
+    torque = {g.name: factor * g.brake_torque / g.radius for g in aircraft.braked}
+    limited = [
+        one
+        for one in loads
+        if one.gear in torque and torque[one.gear] < wanted * one.force[2] * (1 - 1e-9)
+    ]
+    if not limited:
+        return ""
+    most = (
+        f"{factor:g} times the brakes' torque"
+        if factor != 1.0
+        else "the brakes' torque"
+    )
+    plain = {f"{wanted * kept.get(one.gear, 1.0):.3g}" for one in limited}
+    return (
+        f"drag limited by {most}, {drag_shares(limited)} instead of "
+        f"{' and '.join(sorted(plain))}"
     )
 
 
@@ -175,5 +236,9 @@ def reversed_braking(aircraft: GroundAircraft) -> Iterator[BookCase]:
         torque = REVERSED_TORQUE * g.brake_torque / g.radius
         loads.append(load(g, "ground", vertical=z, drag=-min(REVERSED * z, torque)))
     yield BookCase(
-        paragraph="25.507", name="reversed braking", loads=tuple(loads), pose="static"
+        paragraph="25.507",
+        name="reversed braking",
+        loads=tuple(loads),
+        pose="static",
+        note=brakes_note(aircraft, loads, wanted=REVERSED, factor=REVERSED_TORQUE),
     )

@@ -61,5 +61,5 @@ def _largest_loads(cases: Sequence[BookCase]) -> str:
         gear, *force = max(sums, key=lambda row: abs(row[column]))
         if abs(force[column - 1]) > 1.0:
             texts.append(f"{word} {force[column - 1] / 1e3:.1f} kN ({gear})")
-    many = f"{len(cases)} case{'s' * (len(cases) > 1)}"
+    many = f"{len(cases)} case{'s' * (len(cases) != 1)}"
     return f"{many}: largest {', '.join(texts)}"

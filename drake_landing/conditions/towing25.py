@@ -78,7 +78,8 @@ def _towed(
             held = force.copy()
             if roles[g.name] == "main":
                 what = "ground against the tow's side"
-                loads.append(load(g, "ground", side=-force[1], what=what))
+                if force[1] != 0.0:
+                    loads.append(load(g, "ground", side=-force[1], what=what))
                 held[1] = 0.0
             size = float(np.linalg.norm(held))
             if at_axle and size > 0.0:

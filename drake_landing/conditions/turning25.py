@@ -162,7 +162,7 @@ def pivoting(aircraft: GroundAircraft) -> Iterator[BookCase]:
             continue
         torque = FRICTION * rest[gear] * gear.scrub
         for sign, toward in SIDES:
-            turn = sign * torque
+            turn = -sign * torque  # about up: positive turns the nose to port
             arm = 0.0
             if steered is not None:
                 arm = places[steered.name].ground[0] - places[gear.name].ground[0]
@@ -176,7 +176,7 @@ def pivoting(aircraft: GroundAircraft) -> Iterator[BookCase]:
                 )
             yield BookCase(
                 paragraph="25.503",
-                name=f"pivoting about {gear.name}, torque to {toward}",
+                name=f"pivoting about {gear.name}, torque turns nose to {toward}",
                 loads=tuple(loads),
                 pose="static",
                 note="one wheel: no torque but that of its footprint, left out"

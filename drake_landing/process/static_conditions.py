@@ -18,6 +18,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.schema import Case
 from drake_landing.conditions.balance import RigidBalance, holds, rigid_balance
 from drake_landing.conditions.build import OnGround, on_ground
+from drake_landing.conditions.labels import labels
 from drake_landing.conditions.peaks import landing_peaks, sink_rate
 from drake_landing.conditions.pictures import load_pictures
 from drake_landing.conditions.rules import RULES
@@ -29,18 +30,25 @@ from drake_landing.process.condition_answers import (
     section_extremes,
     worst_over_cases,
 )
+from drake_landing.process.condition_readme import README, write_readme
 from drake_landing.process.condition_tables import (
     attachment_table,
     case_table,
     gear_table,
     named_cases,
+    place_table,
+    standing,
     with_headings,
 )
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter, Silent
 from drake_landing.results.stages import Stages
 from drake_landing.results.units import of_quantities
-from drake_landing.transient.static_deck import StaticCase, write_static_deck
+from drake_landing.transient.static_deck import (
+    LABEL_WIDTH,
+    StaticCase,
+    write_static_deck,
+)
 from fem.arrays import Float64
 from fem.errors import InputError
 from fem.model.structure import Structure
@@ -57,6 +65,7 @@ class ConditionsResult:
         applied: paragraph -> its number of cases.
         left_out: paragraph -> why it has none.
         balances: of all cases.
+        places: of the gears in every pose, table, SI.
         cases, gear_loads, attachment_loads, worst, sections: tables, SI.
         monitors: extremes at the deck's monitor points; empty: it has none.
         error: of the equilibrium, largest of all cases, over the largest load.
@@ -67,6 +76,7 @@ class ConditionsResult:
     applied: dict[str, int]
     left_out: dict[str, str]
     balances: tuple[RigidBalance, ...] = field(repr=False)
+    places: pd.DataFrame = field(repr=False)
     cases: pd.DataFrame = field(repr=False)
     gear_loads: pd.DataFrame = field(repr=False)
     attachment_loads: pd.DataFrame = field(repr=False)
@@ -122,6 +132,7 @@ def _run(case: Case, out: Path, stages: Stages) -> ConditionsResult:
     stages.begin("tables and pictures")
     write_tables(result, out)
     load_pictures(result.balances, ground, out / "pictures", airframe.skeleton)
+    write_readme(out)
     stages.end()
     notices = (*aircraft.notices, *map(case.places.named, remarks))
     notices += _steady_notices(aircraft)
@@ -181,6 +192,7 @@ def solve(
         applied=applied,
         left_out=left_out,
         balances=tuple(balances),
+        places=place_table(ground, aircraft.gears, R_AB),
         cases=case_table(balances).assign(text=texts),
         gear_loads=gear_table(balances),
         attachment_loads=attachment_table(held, split, balances),
@@ -211,13 +223,14 @@ def _write_deck(
         loads = loads + answers.steady_load @ answers.lift[None]
     full = np.zeros((structure.points.size, loads.shape[1]))
     full[structure.elimination.f] = loads
+    names = labels([b.case.name for b in balances], LABEL_WIDTH)
     subcases = [
         StaticCase(
             subtitle=f"case {k + 1}: {b.case.paragraph}",
-            label=b.case.name,
+            label=name,
             load=full[:, k],
         )
-        for k, b in enumerate(balances)
+        for k, (b, name) in enumerate(zip(balances, names, strict=True))
     ]
     write_static_deck(
         path,
@@ -238,6 +251,7 @@ def write_tables(result: ConditionsResult, out: Path) -> None:
     """CSV tables."""
     tables = {
         "conditions": result.cases,
+        "gear_places": result.places,
         "gear_loads": result.gear_loads,
         "attachment_loads": result.attachment_loads,
         "worst_stresses": result.worst,
@@ -260,14 +274,17 @@ def summary(result: ConditionsResult, case: Case, out: Path) -> str:
         "",
     ]
     lines += [
-        f"  {number:<16}{count} cases" for number, count in result.applied.items()
+        f"  {number:<16}{count} case{'s' * (count != 1)}"
+        for number, count in result.applied.items()
     ]
     lines += [f"  {number:<16}none: {why}" for number, why in result.left_out.items()]
     lines += [
         "",
+        *(f"  {line}" for line in standing(result.places)),
+        "",
         f"  equilibrium of loads and inertia: {result.error:.0e} of the largest load",
         *(f"note: {text}" for text in result.notices),
         "",
-        f"tables: {out / 'conditions.csv'}; deck: {out / DECK}",
+        f"tables: {out / 'conditions.csv'}, {README}; deck: {out / DECK}",
     ]
     return "\n".join(lines)

@@ -25,6 +25,8 @@ from fem.model.structure import Structure
 
 _LEAST = 1e-9  # of the largest force or moment: below, nothing is written
 _WIDTH = 72  # characters of a line of Nastran's
+LABEL_WIDTH = 60
+"""Characters of a subtitle or label; `°` takes four of them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +96,7 @@ def _lines(
     for text in head:
         yield from (f"$ {line}" for line in wrap(text, _WIDTH - 2))
     selections = model_selections(structure.subcase)
-    yield from ("SOL 101", "CEND", f"TITLE = {title[:60].upper()}")
+    yield from ("SOL 101", "CEND", f"TITLE = {title[:LABEL_WIDTH].upper()}")
     yield from (s for s in selections if relief or not s.startswith("SPC"))
     if not relief:
         yield f"SPC = {first}"
@@ -126,7 +128,7 @@ def _lines(
 def _ascii(text: str) -> str:
     """As case control takes it; a comma at the end would continue the line."""
     plain = text.upper().replace("°", " DEG").encode("ascii", "replace").decode()
-    return plain[:60].strip(" ,")
+    return plain[:LABEL_WIDTH].strip(" ,")
 
 
 def _support(structure: Structure, sid: int) -> Iterator[str]:

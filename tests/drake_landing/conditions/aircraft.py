@@ -5,7 +5,7 @@ import numpy as np
 from drake_landing.conditions.ground import Gear, GearPlace, GroundAircraft
 
 G = 9.80665
-POSES = ("static", "largest", "reduced", "tail_down", "extended")
+POSES = ("static", "largest", "all_wheels", "reduced", "tail_down", "extended")
 
 
 def place(x: float, y: float, height: float, axle: float = 0.5) -> GearPlace:

@@ -1,5 +1,6 @@
 """Static cases on the full model: equilibrium, and the written deck in another code."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import h5py
@@ -11,7 +12,9 @@ from drake_landing.airframe.body import rigid_airframe
 from drake_landing.case.reading import parse_case
 from drake_landing.conditions.balance import holds
 from drake_landing.conditions.build import on_ground
+from drake_landing.conditions.poses import GearStand
 from drake_landing.process.aircraft import prepare_aircraft
+from drake_landing.process.condition_tables import standing
 from drake_landing.process.explain import explain
 from drake_landing.process.static_conditions import DECK, solve, write_tables
 from fem.deck.reader import read_deck
@@ -153,10 +156,71 @@ def test_tables_say_units_and_name_their_cases(found, tmp_path):
             assert told, f"{path.name}: {column}"
         if {"min", "max"} & set(table):
             assert table["unit"].notna().to_numpy().all(), path.name
+        if path.stem == "gear_places":  # by pose
+            continue
         cases = [c for c in table if c.startswith("case")]
         names = [c.replace("case", "name", 1) for c in cases]
         assert cases, path.name
         assert table[names].notna().to_numpy().all(), path.name
+
+
+def test_on_all_wheels_the_tires_stand_on_one_plane(found):
+    _, _, result = found
+    posed = result.ground.poses["all_wheels"]
+    heights = [place.ground[2] for place in posed.places.values()]
+    assert heights == pytest.approx([-posed.height] * 3, abs=1e-9)
+    assert np.ptp([p.ground[2] for p in result.ground.poses["largest"].places.values()])
+    case = next(b.case for b in result.balances if b.case.name == "level, all gears")
+    assert case.pose == "all_wheels"
+
+
+def test_places_at_rest_give_the_loads_at_rest_by_hand(found):
+    _, _, result = found
+    rest = result.places[result.places.pose == "static"].set_index("gear")
+    weight = result.ground.aircraft.weight
+    nose, main = rest.loc["nose"], rest.loc["main_left"]
+    base = main.ground_aft - nose.ground_aft
+    assert nose.load_at_rest == pytest.approx(weight * main.ground_aft / base, rel=1e-6)
+    lines = standing(result.places)
+    assert f"wheelbase {base:.4f} m" in lines[0]
+    assert f"{nose.cg_height:.4f} m above the ground" in lines[0]
+    assert len(lines) == 5
+
+
+def test_the_pose_at_rest_is_that_of_the_rigid_aircraft(found):
+    """A soft mode of the airframe changes nothing."""
+    out, structure, result = found
+    aircraft = prepare_aircraft(tiny(), out)
+    body = rigid_airframe(structure, aircraft.multibody_nodes, np.eye(3))
+    k = len(body.node_id)
+    soft = replace(
+        body,
+        frequency=np.array([1.0]),
+        modal_mass=np.array([500.0]),
+        modal_damping=np.zeros((1, 1)),
+        translation=np.linspace(-0.5, 1.0, 3 * k).reshape(k, 3, 1),
+        rotation=np.zeros((k, 3, 1)),
+    )
+    _, loads, _ = GearStand(soft, aircraft.gears, np.eye(3)).at_rest()
+    static = {gear.name: gear.static for gear in result.ground.aircraft.gears}
+    assert loads == pytest.approx(static)
+
+
+def test_subcases_of_the_deck_have_labels_of_their_own(found):
+    out, _, result = found
+    lines = (out / DECK).read_text().splitlines()
+    labels = [line for line in lines if line.startswith("  LABEL")]
+    assert len(set(labels)) == len({b.case.name for b in result.balances})
+
+
+def test_loads_of_zero_are_left_out_and_the_others_say_what_they_are(found):
+    loads = found[2].gear_loads
+    values = loads[["drag", "side", "vertical"]]
+    values = values.join(loads.filter(like="moment"))
+    assert values.abs().sum(axis=1).min() > 0.0
+    of = loads.groupby("paragraph").what.unique()
+    assert list(of["25.487(b)"]) == ["20 g on the unsprung parts"]
+    assert "jack" in of["25.519(b)(1)"]
 
 
 def test_loads_of_a_tow_are_told_apart(found):

@@ -31,6 +31,12 @@ def test_473_least_factors():
     assert max(2.67 - 2 / 3, 2.0) == pytest.approx(2.0033, rel=CLOSE)
 
 
+def test_507_jacks_are_called_so():
+    cases = list(cases23.jacking(commuter()))
+    jacked = [one.what for case in cases for one in case.loads if one.at == "axle"]
+    assert jacked == ["jack"] * len(cases)
+
+
 def test_appendix_c_drag_factor():
     pounds = [2000.0, 3000.0, 4500.0, 6000.0, 9000.0]
     found = [cases23.drag_factor(p * cases23.POUND_FORCE) for p in pounds]

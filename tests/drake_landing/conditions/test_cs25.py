@@ -111,12 +111,20 @@ def test_493_c_drag_is_no_more_than_the_brakes_give():
     assert totals(every)["nose"] == approx(0, 0, nose)
     assert totals(every)["left"] == approx(100e3, 0, (W - nose) / 2)
     assert totals(mains)["right"] == approx(100e3, 0, W / 2)
+    assert mains.note == (
+        "drag limited by the brakes' torque, 0.34 of the vertical load (left, right) "
+        "instead of 0.8"
+    )
+    assert all(not case.note for case in rolling25.braked_roll(transport()))
 
 
 def test_493_e_formula_and_its_statics_at_f_of_one():
     (case,) = rolling25.sudden_braking(transport())
     # W/12 (1 + 2·0.8·11·3/14.4) = 49 033·4.6667
     assert totals(case)["nose"] == approx(0, 0, 228.822e3)
+    # The drag stays that of V_N = W (B + 0.8 E)/14.4, so that it is above 0.8 V.
+    share = 0.8 * (1.0 - 3.4 / 14.4) / (1.0 - 228.822e3 / W)
+    assert f"{share:.2f} of the vertical load" in case.note
     assert sum(f[2] for f in totals(case).values()) == pytest.approx(W)
     damped = rolling25.sudden_nose_load(transport(damping=0.3))
     f = 1 + math.exp(-math.pi * 0.3 / math.sqrt(1 - 0.09))
@@ -173,6 +181,8 @@ def test_503_pivoting_torque_is_friction_times_the_wheels_distance():
     aircraft = transport()
     case = next(turning25.pivoting(aircraft))
     torque = 0.8 * W * 11 / 24 * 0.45
+    assert case.name.endswith("torque turns nose to starboard")
+    assert case.loads[1].moment[2] < 0.0  # about up: negative is to starboard
     locked = next(one for one in case.loads if one.gear == "left")
     assert abs(locked.moment[2]) == pytest.approx(torque, rel=CLOSE)
     assert abs(totals(case)["nose"][1]) == pytest.approx(torque / 12, rel=CLOSE)
