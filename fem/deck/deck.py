@@ -30,6 +30,7 @@ class Deck:
             the deck has.
         superelements: bulk data of BEGIN SUPER=n sections by n.
         components: superelements that a solution reduces, in their order.
+        external: kind and name of the DMIG that are matrices of external superelements.
         increments: elements of BEGIN MASSID=n sections by n, on the points of the deck.
     """
 
@@ -43,6 +44,7 @@ class Deck:
     ignored: tuple[str, ...] = ()
     superelements: "Mapping[int, Deck]" = field(default_factory=dict)
     components: tuple[Superelement, ...] = ()
+    external: tuple[tuple[str, str], ...] = ()
     increments: "Mapping[int, Deck]" = field(default_factory=dict)
 
     def param(self, name: str) -> Value:

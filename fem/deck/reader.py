@@ -35,6 +35,7 @@ from fem.deck.param_cards import read_parameters
 from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
+from fem.deck.superelement_matrices import with_matrices
 from fem.deck.superelement_sets import (
     Superelement,
     of_main_section,
@@ -132,6 +133,12 @@ def read_deck(
                 part.cards, number, subcases, (*STATIC_LOADS, "LOAD")
             )
             parts[number] = replace(part, cards=cards)
+        try:
+            statements = executive.statements
+            deck, parts, said = with_matrices(deck, parts, statements)
+            notices += said
+        except InputError as error:
+            problems += error.problems
         deck, whole = in_one_piece(deck, parts)
         parts = {}
         problems += whole.problems
@@ -167,6 +174,7 @@ def read_deck(
         ignored=deck.ignored,
         superelements=parts,
         components=components,
+        external=deck.external,
         increments=increments,
     )
 

@@ -148,6 +148,20 @@ def _check_reach(file: Path, home: Path, place: str) -> None:
     )
 
 
+def found_file(name: str, deck: Path) -> Path:
+    """A file that a deck names, as INCLUDE would find it.
+
+    Raises:
+        InputError: there is none, or it is where a deck may not read.
+    """
+    folders = (deck.parent, *_reach.get().folders, Path.cwd())
+    found = _find(name, folders)
+    if found is None:
+        raise InputError(f"{deck}: the file {name} is not there")
+    _check_reach(found[0], deck.parent, str(deck))
+    return found[0]
+
+
 def _text(source: Source, path: Path, shown: str) -> str:
     try:
         if path.exists() and not (path.is_file() or path.is_dir()):

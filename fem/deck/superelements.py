@@ -27,13 +27,14 @@ from fem.deck.superelement_ids import (
     renamed,
     shifts_said,
 )
+from fem.deck.superelement_matrices import TYPES as EXTERNAL
 from fem.deck.superelement_monitors import with_monitors
 from fem.deck.superelement_sets import Superelement
 from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 
 # What serves the reduction of a part and changes nothing in the whole.
-_OF_REDUCTION = ("ASET", "QSET", "OMIT", "SEBULK", "SECONCT", "SELOC", "EIGRL")
+_OF_REDUCTION = ("ASET", "QSET", "EXTRN", "OMIT", "SEBULK", "SECONCT", "SELOC", "EIGRL")
 # They act on all masses of a model, there on those of their part.
 _INERTIAL = ("GRAV", "RFORCE", "ACCEL1")
 _TOLERANCE = 1e-5
@@ -85,12 +86,14 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         tables.append(whole)
         notices += shifts_said(number, maps[number])
         given[number] = _points(part)
-    cards = _stacked(tables, problems)
+    external = [n in _of_types(deck, EXTERNAL) for n in (0, *sorted(parts))]
+    cards = _stacked(tables, external, problems)
     if problems:
         return Whole(cards, problems, notices)
     joined = _joined(deck, given, maps, cards, problems)
     cards = _merged(cards, joined, problems, grid_lists)
-    found = [_component(n, parts[n], maps[n], joined) for n in sorted(parts)]
+    own = sorted(set(parts) - _of_types(deck, EXTERNAL))
+    found = [_component(n, parts[n], maps[n], joined) for n in own]
     cards["QSET"] = with_modal(cards["QSET"], found)
     notices.append(
         f"{len(parts)} superelements ({', '.join(map(str, sorted(parts)))}), joined at "
@@ -140,10 +143,10 @@ def _unsupported(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
     problems = []
     for _, row in deck.cards["SEBULK"].iterrows():
         place = f"{row['file']}:{row['line']}: SEBULK {row['seid']}"
-        if row["type"] not in ("PRIMARY", "PRIM"):
+        if row["type"] not in ("PRIMARY", "PRIM", *EXTERNAL):
             problems.append(
                 f"{place}: type {row['type']}, expected PRIMARY with BEGIN SUPER = "
-                f"{row['seid']}"
+                f"{row['seid']}, EXTOP4, or EXTERNAL with DMIG"
             )
         elif row["seid"] not in parts:
             problems.append(f"{place}: BEGIN SUPER = {row['seid']} is not in the deck")
@@ -152,6 +155,12 @@ def _unsupported(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
             place = f"{row['file']}:{row['line']}: SELOC {row['seid']}"
             problems.append(f"{place}: BEGIN SUPER = {row['seid']} is not in the deck")
     return problems
+
+
+def _of_types(deck: Deck, types: tuple[str, ...]) -> set[int]:
+    """Superelements that SEBULK has as one of some types."""
+    table = deck.cards["SEBULK"]
+    return set(table["seid"][table["type"].isin(types)].tolist())
 
 
 def _other_parameters(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
@@ -233,8 +242,14 @@ def _triad(xyz: Float64) -> Float64:
 # -- together -------------------------------------------------------------------------
 
 
-def _stacked(tables: list[Tables], problems: list[str]) -> Tables:
-    """One table per card. Inertial loads must be those of all parts."""
+def _stacked(
+    tables: list[Tables], external: Sequence[bool], problems: list[str]
+) -> Tables:
+    """One table per card. Inertial loads must be those of all parts.
+
+    External ones do not count: inertial loads do not act on their mass.
+    """
+    inside = len(tables) - sum(external)
     cards = {}
     for name in tables[0]:
         present = [t[name] for t in tables if name in t and len(t[name])]
@@ -242,7 +257,7 @@ def _stacked(tables: list[Tables], problems: list[str]) -> Tables:
         said = [c for c in stacked.columns if c not in ("file", "line", "card")]
         if name in _INERTIAL and len(present):
             one = {t[said].to_string(index=False) for t in present}
-            if len(one) > 1 or len(present) < len(tables):
+            if len(one) > 1 or len(present) < inside:
                 problems.append(
                     f"{name}: it acts on the masses of its own superelement only, not "
                     "supported here; expected the same in all of them"

@@ -22,11 +22,16 @@ LARGEST = 1e100  # of an entry: products of three stay within double precision
 
 @dataclass(frozen=True, kw_only=True)
 class DirectMatrices:
-    """Matrices to add to the g-set, None where nothing is selected."""
+    """Matrices to add to the g-set, None where nothing is selected.
+
+    Attributes:
+        external_mass: what of the mass is of external superelements.
+    """
 
     stiffness: sp.csr_matrix | None = None
     mass: sp.csr_matrix | None = None
     damping: sp.csr_matrix | None = None
+    external_mass: sp.csr_matrix | None = None
 
 
 NONE = DirectMatrices()
@@ -37,22 +42,30 @@ def read_direct(
 ) -> DirectMatrices:
     """Selected matrices with the factors PARAM CK2, CM2 and CB2.
 
+    Those of external superelements are added as they are.
+
     Raises:
         InputError: unknown names, freedoms that do not exist, matrices that are not
             symmetric.
     """
 
-    def chosen(name: str, factor: str) -> sp.csr_matrix | None:
-        if not name:
-            return None
-        scale = deck.number(factor)
-        terms = (f * dmig(deck, points, term) for f, term in combination(name))
-        return sp.csr_matrix(scale * sum(terms))
+    def external(kind: str) -> list[sp.csr_matrix]:
+        own = (name for which, name in deck.external if which == kind)
+        return [dmig(deck, points, name) for name in own]
 
+    def chosen(name: str, factor: str, kind: str) -> sp.csr_matrix | None:
+        terms = external(kind)
+        if name:
+            scale = deck.number(factor)
+            terms += [scale * f * dmig(deck, points, t) for f, t in combination(name)]
+        return sp.csr_matrix(sum(terms)) if terms else None
+
+    mass = external("mass")
     return DirectMatrices(
-        stiffness=chosen(k2gg, "CK2"),
-        mass=chosen(m2gg, "CM2"),
-        damping=chosen(b2gg, "CB2"),
+        stiffness=chosen(k2gg, "CK2", "stiffness"),
+        mass=chosen(m2gg, "CM2", "mass"),
+        damping=chosen(b2gg, "CB2", "damping"),
+        external_mass=sp.csr_matrix(sum(mass)) if mass else None,
     )
 
 

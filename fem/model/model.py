@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
+import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
 from fem.arrays import Int64
@@ -125,6 +126,13 @@ class Model:
             direct=self.direct,
             factors=(number("CK1"), number("CM1"), number("CB1")),
         )
+
+    @cached_property
+    def loaded_mass(self) -> sp.csr_matrix:
+        """(g, g) mass on which GRAV, ACCEL1 and RFORCE act: not external ones."""
+        external = self.direct.external_mass
+        mass = self.matrices.mass
+        return mass if external is None else sp.csr_matrix(mass - external)
 
     @cached_property
     def damping(self) -> Damping:

@@ -131,6 +131,11 @@ class Structure:
         return self.model.matrices
 
     @property
+    def loaded_mass(self) -> sp.csr_matrix:
+        """Mass on which inertial loads act, see `Model`."""
+        return self.model.loaded_mass
+
+    @property
     def weight(self) -> Weight:
         """Nastran's weight table, see `Model`."""
         return self.model.weight

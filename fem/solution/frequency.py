@@ -65,7 +65,7 @@ def solve_frequencies(
         basis = _basis(model, options) if _is_modal(model) else None
         hertz = frequencies(model.deck, case, None if basis is None else basis.elastic)
         excitation = harmonic_excitation(
-            model.deck, model.points, case, hertz, model.matrices.mass
+            model.deck, model.points, case, hertz, model.loaded_mass
         )
         relative = str(model.deck.param("ENFMOTN")).upper().startswith("REL")
         if relative and excitation.motion.nnz:

@@ -182,7 +182,7 @@ def _loads(
                 f"warning: subcase {subcase.id} selects no LOAD and enforces no "
                 "displacement, temperatures move nothing: all its results are zero"
             )
-        mass = model.with_subcase(subcase).matrices.mass if subcase.load else None
+        mass = model.with_subcase(subcase).loaded_mass if subcase.load else None
         load = (
             static_load(model.deck, model.points, subcase.load, mass)
             if subcase.load

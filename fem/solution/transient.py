@@ -193,7 +193,7 @@ class _Inputs:
 
 
 def _inputs(model: Structure, cases: list[Subcase]) -> _Inputs:
-    mass = model.matrices.mass
+    mass = model.loaded_mass
     excitations = []
     for case in cases:
         if not case.dload and not case.ic:

@@ -131,6 +131,8 @@ RECORDS = (
         fields="seid:i type:s rseid:i=0 method:s=AUTO tol:f=1.E-5[1] loc:s=YES "
         "unitno:i=0",
     ),
+    # Rows of the matrices of an external superelement.
+    Card(name="EXTRN", group=_SETS, fields=_FREEDOMS),
     # Three points of the superelement and their places in the main section.
     Card(
         name="SELOC",

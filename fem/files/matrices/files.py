@@ -6,10 +6,10 @@ from pathlib import Path
 from fem.errors import InputError
 from fem.files.atomic import write_aside
 from fem.files.matrices.dmig import read_punch, write_punch
-from fem.files.matrices.named import NamedMatrix
 from fem.files.matrices.nastran_h5 import read_h5
-from fem.files.matrices.op4_binary import byte_order, read_binary, write_binary
-from fem.files.matrices.op4_text import read_text, write_text
+from fem.output4.named import NamedMatrix
+from fem.output4.op4_binary import byte_order, read_binary, write_binary
+from fem.output4.op4_text import read_text, write_text
 
 _HDF5 = b"\x89HDF"
 
