@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
+from fem.deck.case_control import Subcase
 from fem.deck.lexer import RawCard
 from fem.deck.records import CARDS, TABLES, targets_of
 from fem.deck.values import Malformed, integer
@@ -32,6 +33,30 @@ def clean(tables: Tables, ignored: Sequence[RawCard], notices: list[str]) -> Non
     for name in ("SPC", "ASET", "QSET", "OMIT"):
         _unroll(tables, name, "g" if name == "SPC" else "id", notices)
     _drop_loads_on(_element_ids(ignored), tables, notices)
+
+
+def drop_unused_equations(
+    tables: Tables, subcases: Sequence[Subcase], notices: list[str]
+) -> None:
+    """Take MPC that no subcase selects out, where they name points that are not there.
+
+    Nastran looks at the sets that are selected only.
+    """
+    table = tables["MPC"]
+    chosen = {case.mpc for case in subcases}
+    added = tables["MPCADD"]
+    for sid, sets in zip(added["sid"].tolist(), added["sets"]):
+        if sid in chosen:
+            chosen |= {int(i) for i in sets}
+    points = {*tables["GRID"]["id"].tolist(), *tables["SPOINT"]["id"].tolist()}
+    absent = [not points.issuperset(map(int, grids)) for grids in table["grids"]]
+    unused = np.array(absent, bool) & ~table["sid"].isin(list(chosen)).to_numpy(bool)
+    if unused.any():
+        sids = ", ".join(map(str, sorted(set(table["sid"][unused].tolist()))))
+        notices.append(
+            f"MPC {sids}: selected by no subcase; left out, as points of it are absent"
+        )
+        tables["MPC"] = table[~unused].reset_index(drop=True)
 
 
 def ids(tables: Mapping[str, pd.DataFrame], names: Sequence[str], column: str):

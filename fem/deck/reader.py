@@ -24,7 +24,7 @@ from fem.arrays import Int64
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import STATIC_LOADS, check, check_selected
-from fem.deck.cleanup import clean
+from fem.deck.cleanup import clean, drop_unused_equations
 from fem.deck.deck import Deck
 from fem.deck.design import set_initial_values
 from fem.deck.executive import read_executive
@@ -134,8 +134,7 @@ def read_deck(
             )
             parts[number] = replace(part, cards=cards)
         try:
-            statements = executive.statements
-            deck, parts, said = with_matrices(deck, parts, statements)
+            deck, parts, said = with_matrices(deck, parts, executive)
             notices += said
         except InputError as error:
             problems += error.problems
@@ -221,6 +220,8 @@ def _deck(
     )
     if not problems:
         clean(tables, ignored, notices)
+        if case.subcases:
+            drop_unused_equations(tables, case.subcases, notices)
         problems += check(deck, partial=partial)
     return deck
 

@@ -10,7 +10,7 @@ with an X more) and NX (KXX, MXX, BXX1, K4XX1, PX1).
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ import pandas as pd
 
 from fem.arrays import Float64, Int64
 from fem.deck.deck import Deck
+from fem.deck.executive import Executive
 from fem.deck.source import found_file
 from fem.errors import InputError
 from fem.output4 import NamedMatrix, read_output4
@@ -37,19 +38,22 @@ _ASSIGN = re.compile(
     r"ASSIGN\s+(?:INPUTT4|INPUTT2)\s*=\s*['\"]?([^'\",\s]+)['\"]?.*?\bUNIT\s*=\s*(\d+)",
     re.I,
 )
+# Solutions in which loads of the component's own run, and K4, change nothing.
+_WITHOUT_LOADS = (103, 108, 109, 111, 112)
+_STATIC = (101, 103, 105)
 TYPES = ("EXTOP4", "EXTERNAL")
 _UNEVEN = 1e-6  # of the largest entry, between both triangles
 
 
 def with_matrices(
-    deck: Deck, parts: Mapping[int, Deck], statements: Sequence[str]
+    deck: Deck, parts: Mapping[int, Deck], executive: Executive
 ) -> tuple[Deck, dict[int, Deck], list[str]]:
     """The deck and its parts with the matrices of external superelements as DMIG.
 
     Args:
         deck: main bulk data.
         parts: bulk data of BEGIN SUPER = n.
-        statements: of the executive control, with ASSIGN.
+        executive: the section, with SOL and ASSIGN.
 
     Returns:
         The deck, which names them (`Deck.external`), the parts, and notices.
@@ -57,7 +61,8 @@ def with_matrices(
     Raises:
         InputError: all that is wrong with them.
     """
-    files = {int(unit): name for name, unit in _ASSIGN.findall(" \n".join(statements))}
+    said = " \n".join(executive.statements)
+    files = {int(unit): name for name, unit in _ASSIGN.findall(said)}
     found, problems, notices = dict(parts), [], []
     names: list[tuple[str, str]] = []
     for _, row in deck.cards["SEBULK"].iterrows():
@@ -68,6 +73,7 @@ def with_matrices(
         try:
             own, where = _matrices(deck, parts[number], row, files)
             table, kept = _as_dmig(own, parts[number], number, where)
+            unused = _unused(own, where, executive.sol)
         except InputError as error:
             problems += [f"{place}: {text}" for text in error.problems]
             continue
@@ -77,6 +83,7 @@ def with_matrices(
         notices.append(
             f"superelement {number}: {', '.join(kind for kind, _ in kept)} as {where} "
             "has them; GRAV, ACCEL1 and RFORCE do not act on its mass"
+            f"{unused}"
         )
     if problems:
         raise InputError(problems)
@@ -107,7 +114,8 @@ def _as_dmig(
     """Rows of the table DMIG and their kinds and names, one per matrix that is used."""
     rows, kept = [], []
     freedoms = _freedoms(part)
-    for kind, names in _NAMES.items():
+    for kind in _KEPT:
+        names = _NAMES[kind]
         name = next((n for n in names if n in own), "")
         if not name:
             if kind == "stiffness":
@@ -120,20 +128,39 @@ def _as_dmig(
         if isinstance(matrix, NamedMatrix):
             if not matrix.values.any():
                 continue
-            if kind in _KEPT:
-                matrix = _row(matrix, freedoms, where)
+            matrix = _row(matrix, freedoms, where)
         elif not np.any(matrix["values"]):
             continue
-        if kind not in _KEPT:
-            raise InputError(
-                f"{where} has {kind} ({name}), which is not supported for external "
-                "superelements"
-            )
         label = f"{kind[0].upper()}.{number}"
         rows.append({**dict(matrix), "name": label})
         kept.append((kind, label))
     table = pd.DataFrame(rows).reindex(columns=part.cards["DMIG"].columns)
     return table.fillna({"file": "", "line": 0}), kept
+
+
+def _unused(own: Mapping[str, Any], where: str, sol: int) -> str:
+    """What is said of matrices that change nothing in a solution.
+
+    Raises:
+        InputError: they would change its answer.
+    """
+    notice = ""
+    for kind, without in (("loads", _WITHOUT_LOADS), ("structural damping", _STATIC)):
+        there = [
+            name for name in _NAMES[kind] if name in own and np.any(_values(own[name]))
+        ]
+        if there and sol not in without:
+            raise InputError(
+                f"{where} has {kind} ({there[0]}), which is not supported for external "
+                f"superelements in SOL {sol}"
+            )
+        if there:
+            notice += f"; its {kind} ({there[0]}) are not used"
+    return notice
+
+
+def _values(matrix: Any) -> Any:
+    return matrix.values if isinstance(matrix, NamedMatrix) else matrix["values"]
 
 
 def _freedoms(part: Deck) -> tuple[Int64, Int64]:
