@@ -26,6 +26,7 @@ class Subcase:
         preload: static subcase whose load stays (STATSUB(PRELOAD)).
         superelements: those that the subcase is for, 0: the residual structure; None:
             all.
+        extseout: it makes an external superelement.
         combination: subcases and factors that SUBCOM or SYMCOM adds up.
         not_carried_out: commands that would change what a solution of the deck's own
             finds and that nothing here carries out, each with its place.
@@ -60,6 +61,7 @@ class Subcase:
     temperature: int = 0
     initial_temperature: int = 0
     superelements: frozenset[int] | None = None
+    extseout: bool = False
     resvec: str = ""
     k2gg: str = ""
     m2gg: str = ""
@@ -359,6 +361,10 @@ class _Reader:
         members = self.sets.sets.get(n, frozenset({n}))
         alike = members if isinstance(members, frozenset) else None
         self.change(superelements=alike)
+
+    def do_extseout(self, command: _Command) -> None:
+        """EXTSEOUT(...): what it writes does not matter here, what it holds does."""
+        self.change(extseout=True)
 
     def open(self, command: _Command) -> None:
         """A subcase that begins with what stands above all subcases.

@@ -30,8 +30,11 @@ def clean(tables: Tables, ignored: Sequence[RawCard], notices: list[str]) -> Non
     for name in _REPEATABLE:
         _drop_repetitions(tables, name, notices)
     _add_scalar_points(tables, notices)
-    for name in ("SPC", "ASET", "QSET", "OMIT"):
+    for name in ("SPC", "ASET", "CSET", "QSET", "OMIT"):
         _unroll(tables, name, "g" if name == "SPC" else "id", notices)
+    both = [t for t in (tables["ASET"], tables["CSET"]) if len(t)]
+    if both:
+        tables["ASET"] = pd.concat(both, ignore_index=True)
     _drop_loads_on(_element_ids(ignored), tables, notices)
 
 

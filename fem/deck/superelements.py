@@ -34,7 +34,17 @@ from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 
 # What serves the reduction of a part and changes nothing in the whole.
-_OF_REDUCTION = ("ASET", "QSET", "EXTRN", "OMIT", "SEBULK", "SECONCT", "SELOC", "EIGRL")
+_OF_REDUCTION = (
+    "ASET",
+    "CSET",
+    "QSET",
+    "EXTRN",
+    "OMIT",
+    "SEBULK",
+    "SECONCT",
+    "SELOC",
+    "EIGRL",
+)
 # They act on all masses of a model, there on those of their part.
 _INERTIAL = ("GRAV", "RFORCE", "ACCEL1")
 _TOLERANCE = 1e-5

@@ -18,6 +18,7 @@ from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
 from fem.solution.buckling import solve_buckling
 from fem.solution.components import component_notices
+from fem.solution.external import NOTICE, with_boundary_held
 from fem.solution.frequency import solve_frequencies
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
@@ -69,6 +70,10 @@ def _run(deck: Deck, path: Path, options: Options) -> Path:
     work = _by_solution(deck)
     _refuse_what_is_not_carried_out(deck, work)
     check_requests(deck, work)
+    if any(case.extseout for case in deck.case_control):
+        options.console.say(f"notice: {NOTICE}")
+        deck = with_boundary_held(deck)
+        work = _by_solution(deck)
     structure = Structure(deck, work[0][1][0])
     with ResultFile(path) as results:
         _introduce(structure, options)

@@ -94,11 +94,11 @@ RECORDS = (
     Card(name="BNDFIX1", group=_SETS, read=lists.freedoms, table="ASET"),
     # Lists of grids or elements for what refers to them; nothing here checks which.
     Card(name="SET1", group="Lists", read=lists.set1, more="sid:i ids:*"),
-    # Those with free boundary, too: there are no modes for them to be free in.
-    Card(name="CSET", group=_SETS, fields=_FREEDOMS, table="ASET"),
-    Card(name="CSET1", group=_SETS, read=lists.freedoms, table="ASET"),
-    Card(name="BNDFREE", group=_SETS, fields=_FREEDOMS, table="ASET"),
-    Card(name="BNDFREE1", group=_SETS, read=lists.freedoms, table="ASET"),
+    # Those with free boundary stand in ASET, too, once the deck is read.
+    Card(name="CSET", group=_SETS, fields=_FREEDOMS),
+    Card(name="CSET1", group=_SETS, read=lists.freedoms, table="CSET"),
+    Card(name="BNDFREE", group=_SETS, fields=_FREEDOMS, table="CSET"),
+    Card(name="BNDFREE1", group=_SETS, read=lists.freedoms, table="CSET"),
     Card(name="OMIT", group=_SETS, fields=_FREEDOMS),
     Card(name="OMIT1", group=_SETS, read=lists.freedoms, table="OMIT"),
     Card(name="QSET", group=_SETS, fields=_FREEDOMS),
