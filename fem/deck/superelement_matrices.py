@@ -204,6 +204,7 @@ def _row(
 def _symmetric(name: str, values: Any, where: str) -> Float64:
     if np.iscomplexobj(values):
         raise InputError(f"{where}: {name} is complex, expected real numbers")
+    values = np.asarray(values, np.float64)
     size = np.abs(values).max(initial=0.0)
     lower = np.tril(values, -1)
     if not np.triu(values, 1).any():  # files may have one triangle
