@@ -59,7 +59,7 @@ def _held(boundary: pd.DataFrame, free: pd.DataFrame) -> pd.DataFrame:
         for point, c in zip(boundary["id"].tolist(), boundary["c"])
     ]
     boundary = boundary.assign(c=kept)
-    return boundary[boundary["c"] != ""]
+    return boundary.loc[boundary["c"] != ""]
 
 
 def _sets(union: pd.DataFrame, case: Subcase, sid: int) -> np.ndarray:
