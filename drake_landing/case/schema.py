@@ -330,7 +330,7 @@ class Simulation(Section):
 class Transient(Section):
     """The direct transient response of the full model."""
 
-    step: float = number("time step", "s", 5e-4, gt=0, le=0.01)
+    step: float = number("time step", "s", 5e-4, ge=1e-6, le=0.01)
     accept: float = number(
         "error of peak accelerations through the step that is accepted; more than 10 "
         "is refused without it",

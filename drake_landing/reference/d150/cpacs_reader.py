@@ -207,6 +207,12 @@ def _ribs(wing: Any, surface: Surface) -> Float64 | None:
     box = _box(spars)
     if box is None:
         return None
+    span = float(surface.leading[-1, 1] - surface.leading[0, 1])
+    if not span > 0.0:
+        raise ValueError(
+            f"line {wing.sourceline}: sections from root to tip span {span:g} m, "
+            "expected a half wing to starboard"
+        )
     plan = Plan(
         y=surface.leading[:, 1],
         x=surface.leading[:, 0],

@@ -96,6 +96,12 @@ def test_selections(text: str, kind: str, value: float) -> None:
         ("name: small", "name: small\ngears: d15", 2, ["did you mean 'd150'"]),
         ("name: small", "name: small\ngears: []", 2, ["at least one landing gear"]),
         ("name: small", "name: [", 3, ["not valid YAML"]),
+        (
+            "name: small",
+            "name: small\ntransient: {step: 1e-300}",
+            2,
+            ["transient.step", "found 1e-300", "greater than or equal to 1e-06"],
+        ),
     ],
 )
 def test_mistakes_are_named_with_line_and_path(

@@ -188,6 +188,15 @@ def test_bad_ribs(tmp_path: Path, ribs: str, words: str) -> None:
         ribs_of(tmp_path, ribs)
 
 
+def test_ribs_of_a_wing_without_a_span(tmp_path: Path) -> None:
+    path = small(tmp_path)
+    ribs = "<ribReference>front</ribReference><numberOfRibs>3</numberOfRibs>"
+    text = path.read_text().replace("</wing>", SPARS.format(ribs=ribs), 1)
+    path.write_text(text.replace("<length>10<", "<length>0<"))
+    with pytest.raises(InputError, match="span 0 m"):
+        read_cpacs(path)
+
+
 def test_another_number_of_ribs_makes_an_aircraft(d150: Path, tmp_path: Path) -> None:
     text = (d150 / "D150_v201.xml").read_text()
     path = tmp_path / "other.xml"
