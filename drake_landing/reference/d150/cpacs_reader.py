@@ -164,7 +164,7 @@ def _surface(wing: Any, profiles: dict[str, Float64], version: str) -> Surface:
             f"{place(wing)} {wing.get('uID')!r} has {len(leading)} sections, "
             f"expected 2 to {_MOST_SECTIONS}"
         )
-    if float(np.ptp(np.array(leading)[:, 1])) <= 0.0:
+    if leading[-1][1] == leading[0][1]:
         raise ValueError(f"{place(wing)} {wing.get('uID')!r} has no span along y")
     spars = _spars(wing)
     box = _box(spars)
@@ -207,12 +207,6 @@ def _ribs(wing: Any, surface: Surface) -> Float64 | None:
     box = _box(spars)
     if box is None:
         return None
-    span = float(surface.leading[-1, 1] - surface.leading[0, 1])
-    if not span > 0.0:
-        raise ValueError(
-            f"line {wing.sourceline}: sections from root to tip span {span:g} m, "
-            "expected a half wing to starboard"
-        )
     plan = Plan(
         y=surface.leading[:, 1],
         x=surface.leading[:, 0],

@@ -100,7 +100,7 @@ def test_selections(text: str, kind: str, value: float) -> None:
             "name: small",
             "name: small\ntransient: {step: 1e-300}",
             2,
-            ["transient.step", "found 1e-300", "greater than or equal to 1e-06"],
+            ["transient.step", "found 1e-300", "greater than or equal to 0.000001"],
         ),
     ],
 )

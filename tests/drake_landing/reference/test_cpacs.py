@@ -93,6 +93,12 @@ def test_pre_from_a_file_can_be_read(d150: Path, tmp_path: Path, file: str) -> N
         ("<other/>", "expected <cpacs>"),
         ("<cpacs/>", "no vehicles/aircraft/model"),
         (SMALL.format(sections="").replace("<length>10<", "<length>ten<"), "'ten'"),
+        (
+            SMALL.format(
+                sections=SECTION.format(k=0, c=5) + SECTION.format(k=1, c=2)
+            ).replace("<length>10<", "<length>0<"),
+            "has no span along y",
+        ),
     ],
 )
 def test_bad_files(tmp_path: Path, text: str, words: str) -> None:
@@ -186,15 +192,6 @@ def test_ribs_every_so_many_metres_and_not_in_the_nose(tmp_path: Path) -> None:
 def test_bad_ribs(tmp_path: Path, ribs: str, words: str) -> None:
     with pytest.raises(InputError, match=words):
         ribs_of(tmp_path, ribs)
-
-
-def test_ribs_of_a_wing_without_a_span(tmp_path: Path) -> None:
-    path = small(tmp_path)
-    ribs = "<ribReference>front</ribReference><numberOfRibs>3</numberOfRibs>"
-    text = path.read_text().replace("</wing>", SPARS.format(ribs=ribs), 1)
-    path.write_text(text.replace("<length>10<", "<length>0<"))
-    with pytest.raises(InputError, match="span 0 m"):
-        read_cpacs(path)
 
 
 def test_another_number_of_ribs_makes_an_aircraft(d150: Path, tmp_path: Path) -> None:
