@@ -8,6 +8,8 @@ _WORDS = (  # as few of them as it takes
     ("(ii) by inertia", "(ii) inertia"),
     ("forward", "fwd"),
     ("main gears", "mains"),
+    ("towed at", "tow"),
+    (" at 30 deg", " 30 deg"),
     ("wheel turned", "turned"),
     ("inclined reactions", "inclined"),
 )

@@ -33,13 +33,10 @@ def towing(
     a main gear at its ground line. `whole` is F where another rule sets it.
     """
     tow = factor * (whole or towing_load(aircraft.weight))
-    for degrees, toward in (
-        (0.0, ""),
-        (TOW_OBLIQUE, " starboard"),
-        (-TOW_OBLIQUE, " port"),
-    ):
+    for degrees in (0.0, TOW_OBLIQUE, -TOW_OBLIQUE):
         for pull, way in ((-1.0, "forward"), (1.0, "aft")):
-            angle = f" at 30° to{toward}" if degrees else ""
+            toward = "starboard" if pull * degrees > 0.0 else "port"
+            angle = f" at 30° to {toward}" * bool(degrees)
             yield from _towed(
                 aircraft,
                 {gear.name: TOW_MAIN * tow for gear in aircraft.mains},

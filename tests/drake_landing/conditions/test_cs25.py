@@ -225,6 +225,10 @@ def test_509_towing_reactions():
     oblique = cases["towed at main gears, aft at 30° to starboard, (ii) by inertia"]
     along = 0.75 * tow * math.cos(math.radians(30))
     assert totals(oblique)["left"] == approx(along, 0, main)  # side at its ground line
+    for case in cases.values():  # named by where the tow pulls
+        pulled = next(one for one in case.loads if one.what == "tow")
+        if "30°" in case.name:
+            assert ("starboard" in case.name) == (pulled.force[1] > 0.0)
     nose = cases["towed at nose, aft, (ii) by inertia"]
     assert totals(nose)["nose"] == approx(tow, 0, W / 12)
     nose = cases["towed at nose, aft, (i) held at the axle"]
