@@ -191,7 +191,8 @@ def check(
     if is_campaign(case):
         from drake_landing.campaign.command import explain_campaign
 
-        show_lines(explain_campaign(load_campaign(case)))
+        with include_reach(include_path or [], trust=trust):
+            show_lines(explain_campaign(load_campaign(case)))
         return
     checked = _case(case)
     from drake_landing.process.explain import explain

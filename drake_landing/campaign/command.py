@@ -1,9 +1,11 @@
 """`drake-landing campaign`: from the file to the folder of results, in words."""
 
 import shlex
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
+from drake_landing.airframe.mass_cases import loaded
 from drake_landing.campaign.compare import compare_campaigns
 from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
@@ -17,7 +19,9 @@ from drake_landing.campaign.run import (
 )
 from drake_landing.campaign.schema import Campaign
 from drake_landing.campaign.task import case_file
+from drake_landing.case.schema import Case
 from drake_landing.files import write_csv
+from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.run import run_case
 from drake_landing.progress import reporter, told_when_interrupted
 from drake_landing.terminal import show
@@ -78,12 +82,13 @@ _FLY = 5.0  # s of processor time for a second of landing, some 80 modes
 
 
 def explain_campaign(campaign: Campaign) -> str:
-    """How many cases, and what they will cost.
+    """How many cases, of which airframes, and what they will cost.
 
     Raises:
-        InputError: every problem of every case.
+        InputError: every problem of every case, or of every airframe.
     """
     rows, cases = expand(campaign)
+    airframes = "\n".join(_airframes(cases))
     given = [case.simulation.duration for case in cases]
     duration = [d if isinstance(d, float | int) else _USUAL for d in given]
     steps = max(1.0, duration[0] / cases[0].transient.step)
@@ -95,6 +100,7 @@ def explain_campaign(campaign: Campaign) -> str:
     )
     return (
         f"{campaign.name}: {len(rows)} landings of {campaign.base}\n{axes}\n"
+        f"{airframes}\n"
         f"  landings    about {_FLY * sum(duration):.0f} s of processor time to fly, "
         f"files of {1e-6 * steps * 4 * 120 * len(rows):.0f} MB\n"
         f"  confirmed   {campaign.confirm.sample} drawn at random and at most "
@@ -102,6 +108,28 @@ def explain_campaign(campaign: Campaign) -> str:
         f"{steps:.0f} steps in blocks of {campaign.confirm.block}\n"
         f"run it: drake-landing campaign {shlex.quote(campaign.places.file)}"
     )
+
+
+def _airframes(cases: Sequence[Case]) -> Iterator[str]:
+    """Each airframe, once built: a mass case may miss the mass that it should have.
+
+    Raises:
+        InputError: of all airframes.
+    """
+    distinct = {case.airframe.model_dump_json(): case for case in reversed(cases)}
+    problems: list[str] = []
+    with TemporaryDirectory() as folder:
+        for i, case in enumerate(reversed(distinct.values())):
+            try:
+                aircraft = prepare_aircraft(case, Path(folder, str(i)))
+                mass = loaded(aircraft.structure(), aircraft.gears).mass
+            except InputError as error:
+                problems += error.problems
+                continue
+            name = case.airframe.mass_case or aircraft.name
+            yield f"  {'' if i else 'airframes':<12}{name}, {mass:,.0f} kg with gears"
+    if problems:
+        raise InputError(dict.fromkeys(problems))
 
 
 def _short(value: object) -> str:

@@ -290,6 +290,18 @@ def test_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Non
     assert "4 landings" in capsys.readouterr().out
 
 
+def test_check_weighs_every_mass_case(tmp_path: Path) -> None:
+    text = CAMPAIGN.replace(
+        "axes:\n", "axes:\n  airframe.mass_case: [light, heavy]\n", 1
+    )
+    path = _write(tmp_path, text)
+    base = load_campaign(path).base
+    cases = "mass_cases: {light: {}, heavy: {mass: 9e9}}"
+    base.write_text(base.read_text().replace("airframe:\n", f"airframe:\n  {cases}\n"))
+    with pytest.raises(InputError, match=r"heavy.mass: found .* kg .* 9,000,000"):
+        command.explain_campaign(load_campaign(path))
+
+
 @pytest.fixture(scope="module")
 def browser_page(result: CampaignResult, tmp_path_factory: pytest.TempPathFactory):
     """The page of a thousand landings, in a real browser."""
