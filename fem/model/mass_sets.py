@@ -60,4 +60,6 @@ def combination_story(deck: Deck, massset: int) -> str:
         for s, n in terms
     ]
     whole = f"{s0:g} x (" * (s0 != 1.0) + " + ".join(names) + ")" * (s0 != 1.0)
-    return f"MASSSET {massset}: the mass is {whole}"
+    based = any(not n for _, n in terms)
+    left = "" if based else "; without 0 the mass of the main bulk data does not count"
+    return f"MASSSET {massset}: the mass is {whole}{left}"

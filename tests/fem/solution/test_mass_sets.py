@@ -89,6 +89,12 @@ def test_elements_properties_and_materials_of_an_increment_make_its_mass(tmp_pat
     assert any("not used: GRID (1), PARAM (1)" in n for n in structure.notices)
 
 
+def test_a_set_without_the_base_says_so(tmp_path):
+    model = fem.read_deck(deck(tmp_path, "MASSSET = 40\n", "MASSSET,40,1.,1.,2\n"))
+    structure = fem.Structure.from_deck(model)
+    assert any("without 0 the mass of the main bulk" in n for n in structure.notices)
+
+
 def test_subcases_share_all_but_the_mass(tmp_path):
     model = fem.read_deck(deck(tmp_path))
     first, second, _, last = (
