@@ -138,15 +138,15 @@ def AddGearSystems(
         pitch_dampers={},
         elastic_legs=legs,
     )
-    _connect(builder, plant, "state", kinematics, "plant_state")
+    connect(builder, plant, "state", kinematics, "plant_state")
     if together:
         feed(builder, kinematics.GetOutputPort("wheels"), tires, "wheel")
         feed(builder, kinematics.GetOutputPort("struts"), absorbers, "strut_state")
     else:
         for name, tire in tires.items():
-            _connect(builder, kinematics, f"wheel_{name}", tire.system, "wheel")
+            connect(builder, kinematics, f"wheel_{name}", tire.system, "wheel")
         for name, one in absorbers.items():
-            _connect(builder, kinematics, f"strut_{name}", one.system, "strut_state")
+            connect(builder, kinematics, f"strut_{name}", one.system, "strut_state")
     wrenches = joined(builder, tires, "wrench")
     builder.Connect(wrenches, forces.GetInputPort("wrench"))
     builder.Connect(
@@ -160,13 +160,13 @@ def AddGearSystems(
     for name, strut in struts.items():
         if isinstance(strut, LeverStrut):
             ratio = f"strut_ratio_{name}"
-            _connect(builder, kinematics, ratio, forces, f"ratio_{name}")
-    _connect(builder, kinematics, "wheel_jacobian", forces, "wheel_jacobian")
+            connect(builder, kinematics, ratio, forces, f"ratio_{name}")
+    connect(builder, kinematics, "wheel_jacobian", forces, "wheel_jacobian")
     if legs is not None:
-        _connect(builder, legs, "generalized_force", forces, "elastic_legs")
+        connect(builder, legs, "generalized_force", forces, "elastic_legs")
     if connect_plant:
         applied = "applied_generalized_force"
-        _connect(builder, forces, "generalized_force", plant, applied)
+        connect(builder, forces, "generalized_force", plant, applied)
     return systems
 
 
@@ -183,7 +183,7 @@ def _add_elastic_legs(
     columns = {gear.name: hinge_columns(bodies[gear.name]) for gear in elastic}
     legs = ElasticLegs(plant, laws, columns)
     builder.AddNamedSystem("elastic_legs", legs)
-    _connect(builder, plant, "state", legs, "plant_state")
+    connect(builder, plant, "state", legs, "plant_state")
     return legs
 
 
@@ -234,8 +234,8 @@ def _add_brakes(
         for wheel in gear.wheel_names:
             brake = builder.AddNamedSystem(f"brake_{wheel}", cast(Any, Brake)(law))
             systems.brakes[wheel] = brake
-            _connect(builder, kinematics, f"spin_{wheel}", brake, "wheel_spin")
-            _connect(builder, brake, "torque", forces, f"brake_{wheel}")
+            connect(builder, kinematics, f"spin_{wheel}", brake, "wheel_spin")
+            connect(builder, brake, "torque", forces, f"brake_{wheel}")
             if law.anti_skid:
                 contacts = contacts or each_of(builder, systems.tires, "contact")
                 builder.Connect(contacts[wheel], brake.GetInputPort("contact"))
@@ -252,8 +252,8 @@ def _add_pitch_dampers(
         name = gear.name
         systems.pitch_dampers[name] = damper
         builder.AddNamedSystem(f"pitch_damper_{name}", damper)
-        _connect(builder, systems.wheel_kinematics, f"pitch_{name}", damper, "pitch")
-        _connect(builder, damper, "torque", systems.gear_forces, f"pitch_{name}")
+        connect(builder, systems.wheel_kinematics, f"pitch_{name}", damper, "pitch")
+        connect(builder, damper, "torque", systems.gear_forces, f"pitch_{name}")
 
 
 def _add_side_load(
@@ -269,16 +269,17 @@ def _add_side_load(
     ]
     side_load = cast(Any, SideLoad)(struts, list(brakes))
     builder.AddNamedSystem("side_load", side_load)
-    _connect(builder, kinematics, "strut_axes", side_load, "strut_axes")
-    _connect(builder, kinematics, "wheels", side_load, "wheels")
+    connect(builder, kinematics, "strut_axes", side_load, "strut_axes")
+    connect(builder, kinematics, "wheels", side_load, "wheels")
     builder.Connect(wrenches, side_load.GetInputPort("wrench"))
     for wheel, brake in brakes.items():
-        _connect(builder, brake, "torque", side_load, f"brake_{wheel}")
+        connect(builder, brake, "torque", side_load, f"brake_{wheel}")
     across = side_load.GetOutputPort("side_load")
     feed(builder, across, systems.shock_absorbers, "side_load")
 
 
-def _connect(
+def connect(
     builder: DiagramBuilder, source: Any, output: str, target: Any, port: str
 ) -> None:
+    """Connects ports by their names."""
     builder.Connect(source.GetOutputPort(output), target.GetInputPort(port))

@@ -28,7 +28,7 @@ from drake_landing.gears.attachment_points import (
 from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire, each_of
-from drake_landing.gears.systems import AddGearSystems, GearSystems
+from drake_landing.gears.systems import AddGearSystems, GearSystems, connect
 from drake_landing.landing.lift import AddLift, Lift
 from systems.airframe.distributed_load import DistributedLoad
 from systems.airframe.flexible_airframe import FlexibleAirframe
@@ -270,12 +270,12 @@ def _connect_attachment(
     held: Attachment,
     forces: Any,
 ) -> None:
-    _connect(builder, plant, "state", held, "plant_state")
+    connect(builder, plant, "state", held, "plant_state")
     for port in ("pose", "velocity", "free_acceleration", "compliance"):
-        _connect(builder, airframe, f"node_{port}", held, f"node_{port}")
-    _connect(builder, airframe, "pose", held, "airframe_pose")
-    _connect(builder, held, "wrench_on_airframe", airframe, "attachment_wrench")
-    _connect(builder, forces, "all_generalized_force", held, "generalized_force")
+        connect(builder, airframe, f"node_{port}", held, f"node_{port}")
+    connect(builder, airframe, "pose", held, "airframe_pose")
+    connect(builder, held, "wrench_on_airframe", airframe, "attachment_wrench")
+    connect(builder, forces, "all_generalized_force", held, "generalized_force")
     both = builder.AddNamedSystem("all_forces", Adder(2, plant.num_velocities()))
     for i, (system, port) in enumerate(
         ((forces, "all_generalized_force"), (held, "generalized_force_on_gear"))
@@ -314,9 +314,3 @@ def _add_loggers(
     for name, logger in loggers.items():
         logger.set_name("log " + name.replace(".", " "))
     return loggers
-
-
-def _connect(
-    builder: DiagramBuilder, source: Any, output: str, target: Any, port: str
-) -> None:
-    builder.Connect(source.GetOutputPort(output), target.GetInputPort(port))

@@ -17,6 +17,7 @@ from systems.shock_absorber.strut_law import (
     ShockAbsorberTunables,
     StrutLaw,
 )
+from systems.tools.checks import require_index, require_some
 from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
@@ -58,6 +59,9 @@ def ShockAbsorber_(T):
 
         Numeric parameters: one vector with the `ShockAbsorberTunables` of each;
         `set_tunables`. A side load that is not connected is zero, a command 1.
+
+        Raises:
+            ValueError: no parameters at all.
         """
 
         def _construct(
@@ -68,6 +72,7 @@ def ShockAbsorber_(T):
             LeafSystem_[T].__init__(self, converter=converter)
             single = isinstance(parameters, ShockAbsorberParameters)
             self._parameters = each = (parameters,) if single else tuple(parameters)
+            require_some("shock absorber", each)
             self._laws = [StrutLaw(p) for p in each]
             self._n = n = len(each)
             tunables = [value for p in each for value in p.tunables]
@@ -137,8 +142,10 @@ def ShockAbsorber_(T):
             """Sets numeric parameters of one in a context of this system; others stay.
 
             Raises:
-                ValueError: a value is out of its range in ShockAbsorberParameters.
+                ValueError: a value is out of its range in ShockAbsorberParameters, a
+                    shock absorber that is not there.
             """
+            require_index(self.get_name() or "shock absorber", which, self._n)
             given = {
                 "precharge": precharge,
                 "gas_length": gas_length,

@@ -16,7 +16,7 @@ from pydrake.systems.framework import (
 
 from systems.runway.runway import Runway
 from systems.tire.tire_law import TireLaw, TireParameters
-from systems.tools.checks import require
+from systems.tools.checks import require, require_index, require_some
 from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
 
@@ -72,6 +72,9 @@ def Tire_(T):
         dissipated power is never negative without a relaxation length and without a
         pneumatic trail; it contains what the carcass stores for a moment across and
         along, and the work of the aligning moment on a wheel that yaws.
+
+        Raises:
+            ValueError: no parameters at all.
         """
 
         def _construct(
@@ -83,6 +86,7 @@ def Tire_(T):
             LeafSystem_[T].__init__(self, converter=converter)
             single = isinstance(parameters, TireParameters)
             self._parameters = (parameters,) if single else tuple(parameters)
+            require_some("tire", self._parameters)
             self._runway = Runway() if runway is None else runway
             self._n = n = len(self._parameters)
             self._kinds = _kinds(self._parameters, self._runway)
@@ -142,7 +146,12 @@ def Tire_(T):
             damping=1.0,
             friction=1.0,
         ) -> None:
-            """Sets the factors on the law of one tyre in a context of this system."""
+            """Sets the factors on the law of one tyre in a context of this system.
+
+            Raises:
+                ValueError: a factor below zero, a tyre that is not there.
+            """
+            require_index(self.get_name() or "tire", which, self._n)
             factors = [stiffness, damping, friction]
             for name, value in zip(TireTunables.get_fields(), factors):
                 require(self.get_name() or "tire", name, value, "", at_least=0.0)

@@ -1,6 +1,7 @@
 """Range checks of parameters: one message that names value, unit and range."""
 
 import math
+from collections.abc import Sized
 
 
 def require(
@@ -37,3 +38,23 @@ def require(
         expected = " and ".join(bounds) or "a finite number"
         found = f"{value!r} {unit}".rstrip()
         raise ValueError(f"{owner}: {name} is {found}, expected {expected}")
+
+
+def require_some(owner: str, items: Sized) -> None:
+    """Checks that a system of several has at least one.
+
+    Raises:
+        ValueError: it has none.
+    """
+    if not len(items):
+        raise ValueError(f"{owner}: found no parameters, expected at least one")
+
+
+def require_index(owner: str, which: int, count: int) -> None:
+    """Checks that `which` is one of several.
+
+    Raises:
+        ValueError: it is not.
+    """
+    if not 0 <= which < count:
+        raise ValueError(f"{owner}: which {which}, expected 0 to {count - 1}")

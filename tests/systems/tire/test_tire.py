@@ -476,3 +476,11 @@ def test_lagged_state_reaches_the_wrench_and_its_derivative():
 def test_bad_input_is_named_with_unit_and_range(build, words):
     with pytest.raises(ValueError, match=re.escape(words)):
         build()
+
+
+def test_no_tires_and_a_tire_that_is_not_there():
+    with pytest.raises(ValueError, match="tire: found no parameters"):
+        Tire([])
+    tire = Tire(TireParameters(radius=0.5, stiffness=1e6))
+    with pytest.raises(ValueError, match="which 1, expected 0 to 0"):
+        tire.set_factors(tire.CreateDefaultContext(), which=1, friction=0.5)
