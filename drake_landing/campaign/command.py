@@ -6,6 +6,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from drake_landing.airframe.mass_cases import loaded
+from drake_landing.campaign.cases import BaseCase
 from drake_landing.campaign.compare import compare_campaigns
 from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
@@ -88,7 +89,9 @@ def explain_campaign(campaign: Campaign) -> str:
         InputError: every problem of every case, or of every airframe.
     """
     rows, cases = expand(campaign)
-    airframes = "\n".join(_airframes(cases))
+    places = BaseCase(campaign.base).case.places
+    with places.located():
+        airframes = "\n".join(_airframes(cases))
     given = [case.simulation.duration for case in cases]
     duration = [d if isinstance(d, float | int) else _USUAL for d in given]
     steps = max(1.0, duration[0] / cases[0].transient.step)

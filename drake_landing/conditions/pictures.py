@@ -264,23 +264,29 @@ def _numbers(values: Sequence[float]) -> str:
     return " and ".join(told)
 
 
-def _arrow(axis, drawn: Drawn, size: float):
-    """Its tip where the load acts; the text at its tail."""
-    tail = drawn.at - drawn.arrow
+def _line(axis, tail: Float64, tip: Float64, color: str, bend: float = 0.0) -> None:
+    """A line with a head, straight or an arc."""
     axis.annotate(
         "",
-        drawn.at,
+        tip,
         tail,
         arrowprops={
             "arrowstyle": "-|>",
-            "color": drawn.color,
+            "color": color,
             "lw": 1.4,
             "mutation_scale": 8,
             "shrinkA": 0,
             "shrinkB": 0,
+            "connectionstyle": f"arc3,rad={bend}",
         },
         zorder=5,
     )
+
+
+def _arrow(axis, drawn: Drawn, size: float):
+    """Its tip where the load acts; the text at its tail."""
+    tail = drawn.at - drawn.arrow
+    _line(axis, tail, drawn.at, drawn.color)
     x, y = np.sign(drawn.arrow)
     beyond = tail - size * np.array([0.16 * x, 0.05 * y])
     axis.plot(*beyond, alpha=0.0)  # room for the text
@@ -306,21 +312,7 @@ def _turn(axis, drawn: Drawn):
     )
     if drawn.arrow[0] < 0.0:
         start, end = end, start
-    axis.annotate(
-        "",
-        end,
-        start,
-        arrowprops={
-            "arrowstyle": "-|>",
-            "color": drawn.color,
-            "lw": 1.4,
-            "mutation_scale": 8,
-            "shrinkA": 0,
-            "shrinkB": 0,
-            "connectionstyle": f"arc3,rad={0.7 * np.sign(drawn.arrow[0])}",
-        },
-        zorder=5,
-    )
+    _line(axis, start, end, drawn.color, bend=0.7 * float(np.sign(drawn.arrow[0])))
     return axis.annotate(
         drawn.text,
         drawn.at + np.array([0.0, radius]),

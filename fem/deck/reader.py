@@ -42,7 +42,7 @@ from fem.deck.superelement_sets import (
     split_subcases,
     with_chosen_sets,
 )
-from fem.deck.superelements import in_one_piece, with_modal
+from fem.deck.superelements import check_sections, in_one_piece, with_modal
 from fem.deck.tables import make_tables
 from fem.deck.values import Malformed
 from fem.errors import InputError
@@ -126,6 +126,8 @@ def read_deck(
             if card.name == "TEMPP3" and card.name not in ignore
         ]
     parts = _superelements(path, sections, ignore, problems)
+    if not parts and not problems:
+        problems += check_sections(deck, parts)
     subcases = list(case.subcases)
     if parts and not superelements and not problems:
         for number, part in parts.items():

@@ -68,7 +68,7 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         deck: main bulk data, with SEBULK, SECONCT, SELOC.
         parts: bulk data of BEGIN SUPER = n.
     """
-    problems = _unsupported(deck, parts)
+    problems = check_sections(deck, parts)
     notices = _other_parameters(deck, parts)
     if problems:
         return Whole(deck.cards, problems, notices)
@@ -149,7 +149,13 @@ def with_modal(table: pd.DataFrame, parts: Sequence[Superelement]) -> pd.DataFra
 # -- what is asked for ----------------------------------------------------------------
 
 
-def _unsupported(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
+def check_sections(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
+    """What SEBULK and SELOC ask for and the deck does not have.
+
+    Args:
+        deck: main bulk data.
+        parts: bulk data of BEGIN SUPER = n.
+    """
     problems = []
     for _, row in deck.cards["SEBULK"].iterrows():
         place = f"{row['file']}:{row['line']}: SEBULK {row['seid']}"

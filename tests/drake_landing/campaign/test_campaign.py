@@ -298,7 +298,9 @@ def test_check_weighs_every_mass_case(tmp_path: Path) -> None:
     base = load_campaign(path).base
     cases = "mass_cases: {light: {}, heavy: {mass: 9e9}}"
     base.write_text(base.read_text().replace("airframe:\n", f"airframe:\n  {cases}\n"))
-    with pytest.raises(InputError, match=r"heavy.mass: found .* kg .* 9,000,000"):
+    with pytest.raises(
+        InputError, match=r"case.yaml:\d+: .*heavy.mass: found .* 9,000,000"
+    ):
         command.explain_campaign(load_campaign(path))
 
 

@@ -260,6 +260,7 @@ def test_isotropic_shell_with_a_system_normal_to_it(solve):
         (ROD, "K2GG = 0.5KADD", "DMIG 0.5KADD is not in the deck"),
         (ROD, "K2GG = X*KADD", "expected NAME or FACTOR\\*NAME"),
         (ROD + "CBUSH2D,1\n", "", "not supported"),
+        (ROD + "SEBULK,3,PRIMARY\n", "", "BEGIN SUPER = 3 is not in the deck"),
     ],
 )
 @pytest.mark.filterwarnings("ignore:overflow")
