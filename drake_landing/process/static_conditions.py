@@ -120,6 +120,8 @@ def _run(case: Case, out: Path, stages: Stages) -> ConditionsResult:
     )
     peaks = None
     if set(case.conditions.vertical) < {gear.name for gear in aircraft.gears}:
+        # What cannot stand on the ground is named before anything is flown.
+        on_ground(airframe.body, aircraft.gears, R_AB, case.conditions)
         stages.begin("landings for the largest vertical loads")
         mass = airframe.body.mass + sum(gear.mass for gear in aircraft.gears)
         sink = sink_rate(case.conditions, mass)
