@@ -102,6 +102,118 @@ def of_displacements(
 
 
 @_threaded
+def norms_of(sheet, modes, points, isotropic, out):
+    """Equivalent stress of each mode, the largest of all points.
+
+    Args:
+        sheet, points, isotropic: as in `of_rows`.
+        modes: (e k, r) stresses of modes.
+        out: (e, r).
+    """
+    k, count = 3 * points if sheet else points, modes.shape[1]
+    top = np.empty(count, modes.dtype)
+    bottom = np.empty(count, modes.dtype)
+    for e in range(len(isotropic)):
+        own = modes[k * e : k * e + k]
+        if sheet:
+            _sheet(own, points, isotropic[e], out[e], top, bottom)
+        else:
+            _bar(own, points, out[e], top, bottom)
+        for i in range(count):
+            out[e, i] = np.sqrt(out[e, i])
+
+
+@_threaded
+def of_intervals(
+    sheet, sigma, bend, modes, steady, fine, points, isotropic, square, when, high, low
+):
+    """Extremes of one load case; instants that cannot be extreme are left out.
+
+    Between two coarse instants an element is looked at where its measures, bounded by
+    those of both ends and by `bend`, could exceed what has been found.
+
+    Args:
+        sheet, points, isotropic: as in `of_rows`.
+        sigma: (e k, c) stresses at the coarse instants.
+        bend: (e, c - 1) bound on the equivalent stress of what bends away from the
+            chord of each interval.
+        modes: (e k, r) stresses of modes.
+        steady: (e k,) what is added to them.
+        fine: (c - 1, r, s) amplitudes within each interval; its last is the coarse one.
+        square, when, high, low: (e, 1) running extremes, as in `of_rows`.
+
+    Returns:
+        Intervals that were looked at.
+    """
+    k, coarse = 3 * points if sheet else points, sigma.shape[1]
+    count, inside = fine.shape[1], fine.shape[2]
+    even = count - count % AT_ONCE
+    line = np.empty(coarse, sigma.dtype)
+    top = np.empty(coarse, sigma.dtype)
+    bottom = np.empty(coarse, sigma.dtype)
+    part = np.empty((k, inside), sigma.dtype)
+    line_in = np.empty(inside, sigma.dtype)
+    top_in = np.empty(inside, sigma.dtype)
+    bottom_in = np.empty(inside, sigma.dtype)
+    done = 0
+    for e in range(len(isotropic)):
+        own = sigma[k * e : k * e + k]
+        # The larger principal magnitude of a plane stress is at most 2 / sqrt(3) of
+        # von Mises'; elsewhere it is the equivalent stress itself.
+        share = 1.1547006 if sheet and isotropic[e] else 1.0
+        if sheet:
+            _sheet(own, points, isotropic[e], line, top, bottom)
+        else:
+            _bar(own, points, line, top, bottom)
+        best, at = square[e, 0], when[e, 0]
+        upper, lower = high[e, 0], low[e, 0]
+        for i in range(coarse):
+            if line[i] > best:
+                best, at = line[i], inside * i
+            upper = max(upper, top[i])
+            lower = min(lower, bottom[i])
+        root = np.sqrt(best)
+        for i in range(coarse - 1):
+            over = bend[e, i]
+            gap = max(root - over, 0.0)
+            if (
+                max(line[i], line[i + 1]) <= gap * gap
+                and max(top[i], top[i + 1]) + share * over <= upper
+                and min(bottom[i], bottom[i + 1]) - share * over >= lower
+            ):
+                continue
+            done += 1
+            for r in range(k):
+                row = part[r]
+                for t in range(inside):
+                    row[t] = steady[k * e + r]
+                of = modes[k * e + r]
+                for m in range(0, even, AT_ONCE):
+                    a0, a1, a2, a3 = of[m], of[m + 1], of[m + 2], of[m + 3]
+                    q0, q1 = fine[i, m], fine[i, m + 1]
+                    q2, q3 = fine[i, m + 2], fine[i, m + 3]
+                    for t in range(inside):
+                        row[t] += a0 * q0[t] + a1 * q1[t] + a2 * q2[t] + a3 * q3[t]
+                for m in range(even, count):
+                    a0, q0 = of[m], fine[i, m]
+                    for t in range(inside):
+                        row[t] += a0 * q0[t]
+            if sheet:
+                _sheet(part, points, isotropic[e], line_in, top_in, bottom_in)
+            else:
+                _bar(part, points, line_in, top_in, bottom_in)
+            for t in range(inside - 1):  # its last is a coarse one
+                if line_in[t] > best:
+                    best, at = line_in[t], inside * i + t + 1
+                    root = np.sqrt(best)
+                upper = max(upper, top_in[t])
+                lower = min(lower, bottom_in[t])
+        square[e, 0], when[e, 0] = best, at
+        high[e, 0], low[e, 0] = upper, lower
+    return done
+
+
+@_threaded
 def lanes_of(window, total, out):
     """Instants and cases as lanes, by tiles that stay in the cache.
 
