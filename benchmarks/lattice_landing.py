@@ -43,7 +43,7 @@ from systems.shock_absorber.shock_absorber import ShockAbsorber
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
 from systems.tire.slip import SineSlip
 from systems.tire.tire import Tire
-from systems.tire.tire_law import TireParameters
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.table import Table
 
 TIP_NODE = 9

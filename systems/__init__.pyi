@@ -47,6 +47,6 @@ from .tire.tire import Tire as Tire
 from .tire.tire import Tire_ as Tire_
 from .tire.tire import TireContact as TireContact
 from .tire.tire import TireTunables as TireTunables
-from .tire.tire_law import TireParameters as TireParameters
+from .tire.tire_parameters import TireParameters as TireParameters
 from .tools.grid import Grid as Grid
 from .tools.table import Table as Table

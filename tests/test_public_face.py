@@ -75,7 +75,7 @@ def test_templated_systems_show_the_parameters_of_their_constructor(name) -> Non
 
 def test_help_shows_what_a_tire_needs() -> None:
     text = pydoc.render_doc(systems.Tire, renderer=pydoc.plaintext)
-    assert "(parameters: systems.tire.tire_law.TireParameters | " in text
+    assert "(parameters: systems.tire.tire_parameters.TireParameters | " in text
     assert "out `wrench`" in text
 
 

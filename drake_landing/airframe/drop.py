@@ -23,7 +23,8 @@ from drake_landing.gears.parameters import (
 from fem.errors import InputError
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 
 Float64 = npt.NDArray[np.float64]
 

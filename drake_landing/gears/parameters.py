@@ -22,7 +22,8 @@ from systems.tire.aircraft_tire import (
 )
 from systems.tire.magic_formula import MagicFormula
 from systems.tire.slip import SineSlip, TabulatedSlip
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.grid import Grid
 from systems.tools.table import Table
 

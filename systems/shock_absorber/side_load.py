@@ -24,7 +24,7 @@ def SideLoad_(T):
     law = side_loads_of_floats if T is float else side_loads
 
     class Impl(LeafSystem_[T]):
-        """What the tyres press and bend pistons with, for their bearing friction.
+        """What the tires press and bend pistons with, for their bearing friction.
 
         The inertia of piston and wheels is left out: at touchdown it takes a part of
         the load of spin-up, so the friction is somewhat too high rather than too low.
@@ -119,7 +119,7 @@ def side_load(
         size = sqrt(a[3] * a[3] + a[4] * a[4] + a[5] * a[5])
         ex, ey, ez = a[3] / size, a[4] / size, a[5] / size
         fx, fy, fz = fx + w[3], fy + w[4], fz + w[5]
-        # The opposite of the brake's torque acts on the axle beside the tyre's.
+        # The opposite of the brake's torque acts on the axle beside the tire's.
         freed = w[0] * ex + w[1] * ey + w[2] * ez + brakes[i]
         mx = mx + w[0] + along * (ey * w[5] - ez * w[4]) - freed * ex
         my = my + w[1] + along * (ez * w[3] - ex * w[5]) - freed * ey

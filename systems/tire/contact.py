@@ -1,21 +1,22 @@
-"""What a tyre does at its contact point: formulas for floats and AutoDiffXd.
+"""What a tire does at its contact point: formulas for floats and AutoDiffXd.
 
 They are written once: `TireLaw` calls them as they are for AutoDiffXd, and compiled for
 floats; tables are `Table` there, and their `rows` here when compiled. The directions
-are those of `tire_law`.
+are those of `tire_law`; forces of slip are those of a `slip_law.SlipLaw`.
 """
 
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from systems.tire.slip import SlipCurve, reference_speed, secant, slope
+from systems.tire.slip import reference_speed
+from systems.tire.slip_law import SlipLaw, relaxation_share, wheel_forces
 from systems.tools.compiled import compiled_law, law
 from systems.tools.scalar import Scalar, sqrt
 from systems.tools.stops import contact_elastic, never_pulling
 from systems.tools.table import Table, look_up
 
-# With a relaxation length: least share of it that is left where the tyre slides (the
+# With a relaxation length: least share of it that is left where the tire slides (the
 # deflected length is force over stiffness, far less than at the same slip unsaturated).
 _LEAST_RELAXATION = 0.1
 # With a relaxation length: near standstill the carcass is a spring; this much of its
@@ -27,7 +28,7 @@ _HYSTERESIS_RATE = 0.02
 
 
 class Constants(NamedTuple):
-    """Numbers of one tyre on one runway, see `TireParameters`.
+    """Numbers of one tire on one runway, see `TireParameters`.
 
     `kept` is the share of the elastic force that unloading gives back, half the
     hysteresis above it; `rim` the deflection of bottoming; `ground` the runway's factor
@@ -41,26 +42,18 @@ class Constants(NamedTuple):
     rim_stiffness: float
     rolling_share: float
     rolling_resistance: float
-    lateral_ratio: float
-    lateral_scale: float
     low_speed: float
     ground: float
 
 
 class Tables(NamedTuple):
-    """Laws of one tyre over deflection (m), the trail's share over slip; see
-    `TireParameters`. Compiled, the curve of a sine is (peak, shape, stiffness).
-    """
+    """Laws of one tire over deflection (m), see `TireParameters`."""
 
     elastic: Table
     damping: Table
     rolling: Table | None
-    curve: SlipCurve
-    scale: Table | None
     lag_along: Table
     lag_across: Table
-    trail: Table | None
-    trail_share: Table
 
 
 @law
@@ -90,25 +83,19 @@ def lagged(
     slide_l: Scalar,
     travel: Scalar,
     deflection: Scalar,
-    scale: Scalar,
     slip: Any,
-    relaxes: bool,
-    curve: SlipCurve,
     lag_along: Table,
     lag_across: Table,
+    slip_law: SlipLaw,
 ) -> tuple[Scalar, Scalar, Scalar, Scalar]:
     """Slips that act, and rates of the lagged ones.
 
-    With a relaxation length L the slips lag: L* κ' + |v| κ = v_slide, L* falling from L
-    with the secant of the friction curve, as the carcass deflects by force over
-    stiffness (`relaxes`; not by the Magic Formula).
+    With a relaxation length L the slips lag: L* κ' + |v| κ = v_slide, L* being the
+    law's share of L.
     """
     k_t, k_l = slip[0], slip[1]
-    share = 1.0 + 0.0 * deflection
-    initial = slope(curve)
-    if relaxes and initial > 0.0:
-        share = secant(curve, k_t, scale * k_l) / initial
-        share = share if share > _LEAST_RELAXATION else _LEAST_RELAXATION
+    share = relaxation_share(slip_law, k_t, k_l, deflection)
+    share = share if share > _LEAST_RELAXATION else _LEAST_RELAXATION
     along = look_up(lag_along, deflection)
     across = look_up(lag_across, deflection)
     magnitude = abs(travel)
@@ -120,36 +107,6 @@ def lagged(
         k_t = k_t + damping / along * slide_t
         k_l = k_l + damping / across * slide_l
     return k_t, k_l, rate_t, rate_l
-
-
-@law
-def friction(
-    k_t: Scalar,
-    k_l: Scalar,
-    travel: Scalar,
-    deflection: Scalar,
-    load: Scalar,
-    factor: Scalar,
-    scale: Scalar,
-    c: Constants,
-    curve: SlipCurve,
-    trail: Table | None,
-    trail_share: Table,
-) -> tuple[Scalar, Scalar, Scalar]:
-    """F_t, F_l (N) and the moment about the normal (N m) at the slips that act."""
-    across = scale * k_l
-    share = load * factor * secant(curve, k_t, across)
-    side = -share * c.lateral_ratio * across
-    turning = 0.0 * side
-    if trail is not None:
-        arm = look_up(trail, deflection)
-        square = k_t * k_t + across * across
-        # The root of zero has no slope.
-        combined = sqrt(square) if square > 0.0 else 0.0 * square
-        arm = arm * look_up(trail_share, combined)
-        sense = travel / sqrt(travel * travel + c.low_speed * c.low_speed)
-        turning = -sense * arm * side
-    return -share * k_t, side, turning
 
 
 @law
@@ -202,13 +159,9 @@ def contact(
     elastic: Table,
     damping: Table,
     rolling: Table | None,
-    curve: SlipCurve,
-    scale: Table | None,
     lag_along: Table,
     lag_across: Table,
-    trail: Table | None,
-    trail_share: Table,
-    magic: Any = None,
+    slip_law: SlipLaw,
 ) -> tuple[Scalar, ...]:
     """Everything at the contact point, see `TireLaw.contact`.
 
@@ -218,8 +171,8 @@ def contact(
             surface normal there.
         slip: (2) lagged slips along t and l, or None for the algebraic law.
         factors: (3) on stiffness, damping, friction.
-        c, elastic to trail_share: `Constants` and `Tables`.
-        magic: the Magic Formula, not compiled.
+        c, elastic to lag_across: `Constants` and `Tables`.
+        slip_law: forces of slip.
     """
     deflection = c.radius - r
     if deflection <= 0.0:
@@ -256,44 +209,18 @@ def contact(
     damped = never_pulling(static, loss)
     fz = (static + damped) / cos
 
-    stretch = c.lateral_scale + 0.0 * deflection
-    if scale is not None:
-        stretch = look_up(scale, deflection)
     if slip is None:
         speed = reference_speed(travel, c.low_speed)
         k_t, k_l = slide_t / speed, slide_l / speed
         rate_t, rate_l = 0.0 * k_t, 0.0 * k_t
     else:
         k_t, k_l, rate_t, rate_l = lagged(
-            slide_t,
-            slide_l,
-            travel,
-            deflection,
-            stretch,
-            slip,
-            magic is None,
-            curve,
-            lag_along,
-            lag_across,
+            slide_t, slide_l, travel, deflection, slip, lag_along, lag_across, slip_law
         )
     grip = factors[2] * c.ground
-    if magic is None:
-        ft, fl, turning = friction(
-            k_t,
-            k_l,
-            travel,
-            deflection,
-            fz,
-            grip,
-            stretch,
-            c,
-            curve,
-            trail,
-            trail_share,
-        )
-    else:
-        ft, fl, turning = magic.along_wheel(fz, k_t, k_l, travel, tilt)
-        ft, fl, turning = grip * ft, grip * fl, grip * turning
+    ft, fl, turning = wheel_forces(
+        slip_law, k_t, k_l, travel, deflection, fz, grip, tilt
+    )
 
     # About the axle: the arm of F_t is the rolling radius; rolling resistance.
     resisting = 0.0 * spin
@@ -330,24 +257,25 @@ def contacts(
     grounds: Any,
     slips: Any,
     factors: Any,
-    c: Constants,
+    numbers: tuple[float, ...],
     elastic: Table,
     damping: Table,
     rolling: Table | None,
-    curve: SlipCurve,
-    scale: Table | None,
     lag_along: Table,
     lag_across: Table,
-    trail: Table | None,
-    trail_share: Table,
+    slip_law: SlipLaw,
 ) -> Any:
-    """(n, 16) of `contact` of several tyres of one kind.
+    """(n, 16) of `contact` of several tires of one kind.
 
     Args:
         wheels, slips, factors: (n, 12), (n, 2) or None, (n, 3), see `contact`.
         grounds: (n, 4) distance and surface normal of each.
-        c, elastic to trail_share: `Constants` and `Tables`, of all.
+        numbers: `Constants` of all; a plain tuple passes the border of compiled code
+            in a fraction of the time.
+        elastic to lag_across: `Tables` of all.
+        slip_law: forces of slip, of all.
     """
+    c = Constants(*numbers)
     out = np.empty((len(wheels), 16))
     for i in range(len(wheels)):
         slip = None if slips is None else slips[i]
@@ -363,12 +291,9 @@ def contacts(
             elastic,
             damping,
             rolling,
-            curve,
-            scale,
             lag_along,
             lag_across,
-            trail,
-            trail_share,
+            slip_law,
         )
         for j in range(16):
             out[i, j] = found[j]
@@ -376,4 +301,4 @@ def contacts(
 
 
 contacts_of_floats = compiled_law(contacts)
-"""The same, compiled: without the Magic Formula, tables by their rows."""
+"""The same, compiled: tables by their rows, a slip law by its `compiled_form`."""

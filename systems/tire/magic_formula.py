@@ -32,7 +32,7 @@ _STEEP = 1.5
 
 @dataclass(frozen=True)
 class MagicFormula:
-    """Coefficients by their names in the file, e.g. `PKY1`; missing ones are zero.
+    """A `SlipLaw` by coefficients, named as in the file, e.g. `PKY1`; missing ones: 0.
 
     Raises:
         ValueError: one without which there is no formula is missing.
@@ -77,8 +77,13 @@ class MagicFormula:
     def _scaled(self, name: str) -> float:
         return self.coefficients.get(name, 1.0)
 
-    def slopes(self, load: float) -> tuple[float, float]:
-        """Force per slip at small slip, along and across the wheel, N; both > 0."""
+    @property
+    def compiled_form(self) -> None:
+        """See `SlipLaw`: it is not compiled."""
+        return None
+
+    def slopes(self, load: float, deflection: float) -> tuple[float, float]:
+        """See `SlipLaw`; both > 0, whatever the deflection."""
         dfz = self._dfz(load)
         return abs(self._k_x(load, dfz)), abs(self._k_y(load, 0.0))
 
@@ -101,17 +106,21 @@ class MagicFormula:
         scale = self._scaled("LKY")
         return self.coefficients["PKY1"] * nominal * shape * camber_loss * scale
 
-    def along_wheel(
-        self, load: Scalar, k_t: Scalar, k_l: Scalar, travel: Scalar, tilt: Scalar
-    ) -> tuple[Scalar, Scalar, Scalar]:
-        """Force along t and l (N), moment about the normal (N m), see `tire_law`.
+    def relaxation_share(self, k_t: Scalar, k_l: Scalar, deflection: Scalar) -> Scalar:
+        """See `SlipLaw`: the length does not depend on the slip."""
+        return 1.0 + 0.0 * deflection
 
-        Args:
-            load: N.
-            k_t, k_l: slip along t and l: sliding velocity over speed of travel.
-            travel: m/s, along t.
-            tilt: cosine of the angle between axle and surface normal.
-        """
+    def wheel_forces(
+        self,
+        k_t: Scalar,
+        k_l: Scalar,
+        travel: Scalar,
+        deflection: Scalar,
+        load: Scalar,
+        factor: Scalar,
+        tilt: Scalar,
+    ) -> tuple[Scalar, Scalar, Scalar]:
+        """See `SlipLaw`; the load alone stands for the deflection."""
         if not load > 0.0:
             return 0.0 * load, 0.0 * load, 0.0 * load
         sense = -1.0 if travel <= 0.0 else 1.0
@@ -119,7 +128,7 @@ class MagicFormula:
         across = sense * k_l
         across = min(max(across, -_STEEP), _STEEP)
         fx, fy, mz = self.forces(load, -sense * k_t, across, camber)
-        return sense * fx, sense * fy, mz
+        return factor * (sense * fx), factor * (sense * fy), factor * mz
 
     def forces(
         self, load: Scalar, kappa: Scalar, tangent: Scalar, camber: Scalar

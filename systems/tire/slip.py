@@ -1,4 +1,4 @@
-"""Friction of a tyre over slip, and how both directions of slip share it.
+"""Friction of a tire over slip, and how both directions of slip share it.
 
 Slip is the sliding velocity of the contact point over the speed of travel. Along the
 wheel it is σ = (v_x - r_r ω)/v_x, across it the tangent of the slip angle. One curve

@@ -1,4 +1,4 @@
-"""Tyres on a runway, as a Drake system; the law is in `tire_law`."""
+"""Tires on a runway, as a Drake system; the law is in `tire_law`."""
 
 import math
 from collections.abc import Sequence
@@ -15,7 +15,8 @@ from pydrake.systems.framework import (
 )
 
 from systems.runway.runway import Runway
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.checks import require, require_index, require_some
 from systems.tools.template import default_instantiation, for_scalars
 from systems.tools.weak_methods import weakly
@@ -23,10 +24,10 @@ from systems.tools.weak_methods import weakly
 TireContact = namedview(
     "TireContact", ["deflection", "F_z", "F_x", "F_y", "slip", "slip_angle"]
 )
-"""The elements of the port `contact`, of one tyre."""
+"""The elements of the port `contact`, of one tire."""
 
 TireTunables = namedview("TireTunables", ["stiffness", "damping", "friction"])
-"""The numeric parameters of one tyre: factors on stiffness, damping and friction."""
+"""The numeric parameters of one tire: factors on stiffness, damping and friction."""
 
 
 @for_scalars
@@ -41,9 +42,9 @@ def Tire_(T):
         return deflection, fz, ft, fl, -slip, angle
 
     class Impl(LeafSystem_[T]):
-        """One tyre, `Tire(parameters, runway)`, or n in one: `Tire([first, ...])`.
+        """One tire, `Tire(parameters, runway)`, or n in one: `Tire([first, ...])`.
 
-        The runway is flat and dry by default. What passes a port is of one tyre after
+        The runway is flat and dry by default. What passes a port is of one tire after
         the other; several in one system take a fraction of the time of as many systems.
 
         | port | size | unit | frame and sign |
@@ -64,7 +65,7 @@ def Tire_(T):
         zero.
 
         States: none; with a relaxation length, given or from the carcass, the lagged
-        slips along and across of each such tyre.
+        slips along and across of each such tire.
         Numeric parameters: one vector with the `TireTunables` of each, factors on the
         law, 1; `set_factors`.
 
@@ -130,7 +131,7 @@ def Tire_(T):
 
         @property
         def parameters(self) -> tuple[TireParameters, ...]:
-            """Of each tyre."""
+            """Of each tire."""
             return self._parameters
 
         def rolling_radius(self, deflection, which: int = 0):
@@ -146,10 +147,10 @@ def Tire_(T):
             damping=1.0,
             friction=1.0,
         ) -> None:
-            """Sets the factors on the law of one tyre in a context of this system.
+            """Sets the factors on the law of one tire in a context of this system.
 
             Raises:
-                ValueError: a factor below zero, a tyre that is not there.
+                ValueError: a factor below zero, a tire that is not there.
             """
             require_index(self.get_name() or "tire", which, self._n)
             factors = [stiffness, damping, friction]
@@ -160,7 +161,7 @@ def Tire_(T):
                 vector.SetAtIndex(3 * which + i, factor)
 
         def clearance(self, context, which: int = 0):
-            """Height of a tyre's lowest point over the runway below it, m.
+            """Height of a tire's lowest point over the runway below it, m.
 
             Only that point: on a profile its clearance is vertical, not the nearest
             distance. The context is one of this system, `wheel` connected or fixed.
@@ -220,7 +221,7 @@ def Tire_(T):
 
 
 def _kinds(parameters: Sequence[TireParameters], runway: Runway) -> list[tuple]:
-    """Law, tyres and rows of lagged slips (None without) of each kind of tyre."""
+    """Law, tires and rows of lagged slips (None without) of each kind of tire."""
     members: list[list[int]] = []
     for i, p in enumerate(parameters):
         alike = [m for m in members if parameters[m[0]] == p]

@@ -1,4 +1,4 @@
-"""The force law of a tyre: from the motion of a wheel to the force of the ground on it.
+"""The force law of a tire: from the motion of a wheel to the force of the ground on it.
 
 Directions at the contact point, n the surface normal and a the axle (starboard at
 rest): t = a × n along the wheel, aft when a is starboard; l = n × t across it; e, the
@@ -23,25 +23,21 @@ All forces turn with the wheel: nothing depends on heading, nor on position on a
 runway.
 """
 
-from dataclasses import dataclass, field
-
 import numpy as np
 import numpy.typing as npt
 
 from systems.runway.runway import Runway
-from systems.tire.aircraft_tire import trail_share
 from systems.tire.contact import (
     Constants,
     Tables,
     contact,
     contacts_of_floats,
     elastic_force,
-    friction,
     rolling_radius,
 )
-from systems.tire.magic_formula import MagicFormula
-from systems.tire.slip import SineSlip, SlipCurve, TabulatedSlip, constants
-from systems.tools.checks import require
+from systems.tire.curve_law import CurveLaw
+from systems.tire.slip_law import SlipLaw
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.scalar import Scalar
 from systems.tools.stops import contact_energy
 from systems.tools.table import Table
@@ -49,140 +45,8 @@ from systems.tools.table import Table
 Float64 = npt.NDArray[np.float64]
 
 # Least relaxation length over the radius, where it follows from the carcass: that of a
-# tyre that hardly touches would be nothing.
+# tire that hardly touches would be nothing.
 _SHORTEST = 0.5
-
-
-@dataclass(frozen=True, kw_only=True)
-class TireParameters:
-    """Parameters of a tyre.
-
-    Attributes:
-        radius: m, unloaded.
-        stiffness: N/m, or a table of force (N) over deflection (m) from (0, 0).
-        nominal_force: N, F_zN in F_z = c_1 δ - F_zN; with a number for stiffness only.
-        damping: N s/m, or a table of it over deflection (m) from (0, 0).
-        damping_ramp: m, deflection over which a constant damping sets in, so that
-            touchdown brings no jump of force.
-        bottoming_deflection: m, where the rim adds bottoming_stiffness (N/m).
-        slip: friction over slip on the dry surface.
-        lateral_friction_ratio: ν, friction across over friction along the wheel.
-        lateral_slip_scale: c, slope of the side force over that of the drag.
-        relaxation_length: m; 0 is the algebraic law, without states.
-        rolling_radius: share of the deflection by which the rolling radius falls short
-            of the unloaded one: a third for a tyre that rolls, 1 is the loaded radius;
-            or a table of the rolling radius (m) over deflection (m).
-        cornering: table of the side force per angle at small angles (N/rad) over
-            deflection (m); None: the slope of `slip`.
-        trail: table of the pneumatic trail at small angles (m) over deflection (m).
-        fore_aft_stiffness, lateral_stiffness: of the carcass, N/m or a table of it over
-            deflection (m); both or none. The relaxation lengths follow: slope of the
-            force over slip divided by the stiffness.
-        hysteresis: work lost in a cycle of slow loading over the work of loading;
-            loading follows `stiffness`.
-        rolling_resistance: moment about the axle over F_z and rolling radius.
-        low_speed: m/s, speed of travel below which slip is regularised.
-
-    Raises:
-        ValueError: a value is out of range; the message names it, its unit and range.
-    """
-
-    radius: float
-    stiffness: float | Table
-    nominal_force: float = 0.0
-    damping: float | Table = 0.0
-    damping_ramp: float = 0.005
-    bottoming_deflection: float | None = None
-    bottoming_stiffness: float = 2e7
-    slip: SlipCurve = field(default_factory=SineSlip)
-    lateral_friction_ratio: float = 1.0
-    lateral_slip_scale: float = 1.0
-    relaxation_length: float = 0.0
-    rolling_radius: float | Table = 1.0 / 3.0
-    cornering: Table | None = None
-    trail: Table | None = None
-    fore_aft_stiffness: float | Table | None = None
-    lateral_stiffness: float | Table | None = None
-    hysteresis: float = 0.0
-    rolling_resistance: float = 0.0
-    magic_formula: MagicFormula | None = None
-    low_speed: float = 0.5
-
-    def __post_init__(self) -> None:
-        require("tire", "radius", self.radius, "m", above=0.0)
-        if isinstance(self.stiffness, Table):
-            _require_force_table(self.stiffness)
-            if self.nominal_force != 0.0:
-                raise ValueError(
-                    f"tire: nominal_force is {self.nominal_force} N, expected 0 where "
-                    "stiffness is a table"
-                )
-        else:
-            require("tire", "stiffness", self.stiffness, "N/m", above=0.0)
-            require("tire", "nominal_force", self.nominal_force, "N", at_least=0.0)
-        if isinstance(self.damping, Table):
-            table = self.damping
-            if (table.x[0], table.y[0]) != (0.0, 0.0) or min(table.y) < 0.0:
-                raise ValueError(
-                    "tire: the damping table must start at (0, 0) and have no "
-                    "negative value"
-                )
-        else:
-            require("tire", "damping", self.damping, "N s/m", at_least=0.0)
-        if self.bottoming_deflection is not None:
-            require(
-                "tire",
-                "bottoming_deflection",
-                self.bottoming_deflection,
-                "m",
-                above=0.0,
-                at_most=self.radius,
-            )
-        for name, unit in (
-            ("damping_ramp", "m"),
-            ("bottoming_stiffness", "N/m"),
-            ("lateral_friction_ratio", ""),
-            ("lateral_slip_scale", ""),
-            ("low_speed", "m/s"),
-        ):
-            require("tire", name, getattr(self, name), unit, above=0.0)
-        require("tire", "relaxation_length", self.relaxation_length, "m", at_least=0.0)
-        for name, bound in (("hysteresis", 0.9), ("rolling_resistance", 0.5)):
-            value = getattr(self, name)
-            require("tire", name, value, "", at_least=0.0, at_most=bound)
-        self._check_tables()
-
-    def _check_tables(self) -> None:
-        rolling = self.rolling_radius
-        if isinstance(rolling, Table):
-            if not 0.0 < min(rolling.y) <= max(rolling.y) <= 1.1 * self.radius:
-                raise ValueError(
-                    f"tire: rolling_radius goes from {min(rolling.y)} to "
-                    f"{max(rolling.y)} m, expected > 0 m and about the radius, "
-                    f"{self.radius} m, at most"
-                )
-        else:
-            require("tire", "rolling_radius", rolling, "", at_least=0.0, at_most=1.0)
-        for name in ("cornering", "trail"):
-            table = getattr(self, name)
-            if table is not None and min(table.y) < 0.0:
-                raise ValueError(f"tire: {name} has a negative value, expected >= 0")
-        carcass = (self.fore_aft_stiffness, self.lateral_stiffness)
-        if (carcass[0] is None) != (carcass[1] is None):
-            raise ValueError(
-                "tire: fore_aft_stiffness and lateral_stiffness: found one, expected "
-                "both or none"
-            )
-        if carcass[0] is not None and self.relaxation_length > 0.0:
-            raise ValueError(
-                "tire: relaxation_length beside stiffnesses of the carcass, expected "
-                "one or the other: the length follows from them"
-            )
-
-    @property
-    def lagged(self) -> bool:
-        """Whether the slips are states."""
-        return self.relaxation_length > 0.0 or self.lateral_stiffness is not None
 
 
 def relaxation_lengths(law: "TireLaw") -> tuple[Table, Table]:
@@ -202,42 +66,6 @@ def relaxation_lengths(law: "TireLaw") -> tuple[Table, Table]:
             y.append(max(law.slopes(d)[i] / k, least) if k > 0.0 else least)
         tables.append(Table(x, y))
     return tables[0], tables[1]
-
-
-def _require_force_table(table: Table) -> None:
-    if (table.x[0], table.y[0]) != (0.0, 0.0):
-        raise ValueError(
-            f"tire: the stiffness table starts at ({table.x[0]} m, {table.y[0]} N), "
-            "expected (0, 0)"
-        )
-    if not table.ascending:
-        raise ValueError("tire: the force in the stiffness table must not decrease")
-
-
-def inflated_stiffness(
-    *,
-    c1: float,
-    c2: float,
-    pressure: float,
-    max_deflection: float,
-    points: int = 401,
-) -> Table:
-    """Table of F = x²/(c1 + c2 x/p), soft at first and linear at large deflection.
-
-    Args:
-        c1: m²/N.
-        c2: m Pa/N.
-        pressure: Pa, inflation pressure p.
-        max_deflection: m, last point of the table; continued linearly.
-        points: number of points.
-    """
-    require("tire", "c1", c1, "m²/N", above=0.0)
-    require("tire", "c2", c2, "m Pa/N", above=0.0)
-    require("tire", "pressure", pressure, "Pa", above=0.0)
-    require("tire", "max_deflection", max_deflection, "m", above=0.0)
-    x = [max_deflection * i / (points - 1) for i in range(points)]
-    y = [d * d / (c1 + c2 * d / pressure) for d in x]
-    return Table(x, y, extend=True)
 
 
 class TireLaw:
@@ -278,33 +106,22 @@ class TireLaw:
                 0.0 if isinstance(p.rolling_radius, Table) else float(p.rolling_radius)
             ),
             rolling_resistance=float(p.rolling_resistance),
-            lateral_ratio=float(p.lateral_friction_ratio),
-            lateral_scale=float(p.lateral_slip_scale),
             low_speed=float(p.low_speed),
             ground=float(runway.friction),
         )
+        self._numbers = tuple(self._constants)
+        self._slip_law = p.magic_formula or self._curve_law()
         along, across = relaxation_lengths(self)
-        # The trail falls with the slip as it does with the angle.
-        per_slip = p.slip.initial_slope / p.slip.peak if p.slip.peak else 1.0
-        slips = [4.0 / per_slip * i / 80 for i in range(81)]
         rolling = p.rolling_radius
         self._tables = Tables(
             elastic=self._elastic,
             damping=self._damping,
             rolling=rolling if isinstance(rolling, Table) else None,
-            curve=p.slip,
-            scale=self._lateral_scale(),
             lag_along=along,
             lag_across=across,
-            trail=p.trail,
-            trail_share=Table(slips, [trail_share(per_slip * s) for s in slips]),
         )
-        self._rows = [
-            constants(table)
-            if isinstance(table, SineSlip | TabulatedSlip)
-            else table and table.rows
-            for table in self._tables
-        ]
+        self._rows = [table and table.rows for table in self._tables]
+        self._compiled_slip_law = self._slip_law.compiled_form
 
     @property
     def parameters(self) -> TireParameters:
@@ -329,20 +146,12 @@ class TireLaw:
         load = self.elastic_force(deflection)
         if not load > 0.0:
             return 0.0, 0.0
-        wheel_slip = along, across
-        if self._p.magic_formula is not None:
-            forces = self._p.magic_formula.along_wheel(load, *wheel_slip, -speed, 0.0)
-            return forces[0] * ground / load, forces[1] * ground / load
-        t = self._tables
-        scale = self._p.lateral_slip_scale
-        if t.scale is not None:
-            scale = t.scale.value(deflection)
-        common = (ground, scale, self._constants, t.curve, t.trail, t.trail_share)
-        forces = friction(*wheel_slip, -speed, deflection, load, *common)
-        return forces[0] / load, forces[1] / load
+        at = -speed, deflection, load, ground, 0.0
+        ft, fl, _ = self._slip_law.wheel_forces(along, across, *at)
+        return ft / load, fl / load
 
     def deflection_under(self, load: float) -> float:
-        """Deflection at which the tyre carries a load (N) at rest, m; at most half the
+        """Deflection at which the tire carries a load (N) at rest, m; at most half the
         radius.
         """
         low, high = 0.0, 0.5 * self._p.radius
@@ -355,13 +164,19 @@ class TireLaw:
 
     def slopes(self, deflection: float) -> tuple[float, float]:
         """Force per slip at small slip, along and across the wheel at rest, N."""
-        p, load = self._p, self.elastic_force(deflection)
-        if p.magic_formula is not None:
-            return p.magic_formula.slopes(load)
-        along = p.slip.initial_slope * load
-        if p.cornering is not None:
-            return along, p.cornering.value(deflection)
-        return along, along * p.lateral_friction_ratio * p.lateral_slip_scale
+        return self._slip_law.slopes(self.elastic_force(deflection), deflection)
+
+    def _curve_law(self) -> SlipLaw:
+        p = self._p
+        return CurveLaw.of_curve(
+            p.slip,
+            lateral_ratio=float(p.lateral_friction_ratio),
+            lateral_scale=float(p.lateral_slip_scale),
+            low_speed=float(p.low_speed),
+            cornering=p.cornering,
+            scale=self._lateral_scale(),
+            trail=p.trail,
+        )
 
     def _lateral_scale(self) -> Table | None:
         """c over deflection, where the cornering power is given."""
@@ -413,25 +228,23 @@ class TireLaw:
             the lagged slips, 1/s.
         """
         ground = self._runway.nearest(*wheel[:6])
-        tables = self._tables, self._p.magic_formula
-        return contact(
-            wheel, *ground, slip_state, factors, self._constants, *tables[0], tables[1]
-        )
+        laws = self._constants, *self._tables, self._slip_law
+        return contact(wheel, *ground, slip_state, factors, *laws)
 
     def contacts(
         self, wheels: npt.NDArray, slips: npt.NDArray | None, factors: npt.NDArray
     ) -> npt.NDArray:
-        """(n, 16) of `contact`, of several wheels with this tyre.
+        """(n, 16) of `contact`, of several wheels with this tire.
 
         Args:
             wheels, slips, factors: (n, 12), (n, 2) or None, (n, 3); of floats, which
                 are compiled, or AutoDiffXd.
         """
         listed = [None] * len(wheels) if slips is None else slips.tolist()
-        if wheels.dtype == object or self._p.magic_formula is not None:
+        slip_law = self._compiled_slip_law
+        if wheels.dtype == object or slip_law is None:
             each = zip(wheels.tolist(), listed, factors.tolist())
             return np.array([self.contact(*given) for given in each])
         grounds = [self._runway.nearest(*wheel) for wheel in wheels[:, :6].tolist()]
-        return contacts_of_floats(
-            wheels, np.array(grounds), slips, factors, self._constants, *self._rows
-        )
+        laws = self._numbers, *self._rows, slip_law
+        return contacts_of_floats(wheels, np.array(grounds), slips, factors, *laws)

@@ -1,6 +1,6 @@
 """A drop test: one leg, its sprung mass guided vertically, wheels that may spin.
 
-The carriage moves at a constant speed toward -x. Shock absorber and tyre are the
+The carriage moves at a constant speed toward -x. Shock absorber and tire are the
 systems under test; the rig adds masses alone.
 """
 
@@ -19,7 +19,7 @@ from systems.runway.runway import Runway
 from systems.shock_absorber.shock_absorber import ShockAbsorber
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
 from systems.tire.tire import Tire
-from systems.tire.tire_law import TireParameters
+from systems.tire.tire_parameters import TireParameters
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,7 +42,7 @@ class Rig:
 class Masses(LeafSystem):
     """States: heights of sprung and unsprung mass, their rates, spin of a wheel.
 
-    Inputs `force` (1) of the strut, `wrench` (6) of one tyre. Outputs `strut_state`
+    Inputs `force` (1) of the strut, `wrench` (6) of one tire. Outputs `strut_state`
     (2), `wheel` (12), `state` (5), `kinetic_energy` (1).
     """
 

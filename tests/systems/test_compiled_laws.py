@@ -1,4 +1,4 @@
-"""Compiled laws are the formulas themselves, for every kind of tyre and strut."""
+"""Compiled laws are the formulas themselves, for every kind of tire and strut."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,8 @@ from systems.shock_absorber.gas_spring import GasSpring, SecondChamber
 from systems.shock_absorber.shock_absorber import ShockAbsorber
 from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
 from systems.tire.slip import TabulatedSlip
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.grid import Grid
 from systems.tools.table import Table
 

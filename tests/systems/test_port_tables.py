@@ -28,7 +28,7 @@ from systems.shock_absorber.shock_absorber import ShockAbsorber
 from systems.shock_absorber.side_load import SideLoad
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
 from systems.tire.tire import Tire
-from systems.tire.tire_law import TireParameters
+from systems.tire.tire_parameters import TireParameters
 from tests.systems.small_gears import two_gears
 from tests.systems.synthetic_body import LEFT_GEAR, RIGHT_GEAR, aircraft_body
 

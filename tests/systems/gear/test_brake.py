@@ -17,7 +17,8 @@ from systems.gear.brake import (
     smooth_fall,
 )
 from systems.runway.runway import Runway
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.table import Table
 
 RAMP = BrakeParameters(torque=Table((0.5, 1.5), (0.0, 8e3)))
@@ -96,7 +97,7 @@ def test_anti_skid_holds_the_wheel_near_the_peak_of_friction():
     assert 0.08 < spin_down(BrakeParameters(torque=80e3, anti_skid=AntiSkid())) < 0.2
 
 
-def test_feedthrough_from_the_tyre_exists_only_with_anti_skid():
+def test_feedthrough_from_the_tire_exists_only_with_anti_skid():
     for parameters, expected in ((RAMP, False), (SKID, True)):
         system = Brake(parameters)
         spin = system.GetInputPort("wheel_spin").get_index()

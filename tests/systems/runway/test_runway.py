@@ -16,7 +16,8 @@ from systems.runway.runway_profile import (
     Waves,
     measured_tracks,
 )
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 
 MEASURED = MeasuredProfile(
     distance=[0.0, 2.0, 3.5, 6.0, 9.0], height=[0.0, 0.03, 0.01, -0.04, 0.02]

@@ -12,7 +12,8 @@ from scipy.special import k1
 from systems.runway.roughness import ISO_8608, coherence, rough_tracks
 from systems.runway.runway import Runway
 from systems.runway.runway_profile import CosineBump, Waves, measured_tracks
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 from tests.systems.runway.test_runway import wheel_circle_distance
 from tests.systems.tire.test_tire import ONES, tilted
 
@@ -140,7 +141,7 @@ def test_roughness_is_repeated_by_its_seed_and_grows_from_nothing():
     assert same[0].height == same[1].height
 
 
-def test_tyre_can_roll_over_class_d():
+def test_tire_can_roll_over_class_d():
     left, _ = rough_tracks(ISO_8608["D"], seed=1, length=1000.0)
     Runway(profile=left).require_rollable(0.584)
 

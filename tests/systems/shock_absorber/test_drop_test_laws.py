@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 from systems.shock_absorber.gas_spring import GasSpring
 from systems.shock_absorber.strut_law import ShockAbsorberParameters
-from systems.tire.tire_law import TireParameters, inflated_stiffness
+from systems.tire.tire_parameters import TireParameters, inflated_stiffness
 from systems.tools.table import Table
 from tests.systems.drop_rig import Rig, drop
 
@@ -36,7 +36,7 @@ MAIN_LEG = Rig(
 
 
 def scipy_drop(duration: float, times: np.ndarray) -> dict[str, np.ndarray]:
-    """The same leg by scipy: stroke, tyre force per leg, drag per leg, spin."""
+    """The same leg by scipy: stroke, tire force per leg, drag per leg, spin."""
     m, mu_unsprung, inertia, v = 31496.0, 750.0, 18.0, 67.0
     k_stop, chi = 5e7, 0.5
 
@@ -49,7 +49,7 @@ def scipy_drop(duration: float, times: np.ndarray) -> dict[str, np.ndarray]:
         deep = max(s - 0.47, 0.0)
         return gas + oil + seal - stop + 3e7 * deep * max(1 + chi * rate, 0.0)
 
-    def tyre(z, rate, spin):
+    def tire(z, rate, spin):
         x = 0.584 - z
         if x <= 0:
             return 0.0, 0.0
@@ -60,7 +60,7 @@ def scipy_drop(duration: float, times: np.ndarray) -> dict[str, np.ndarray]:
     def rhs(t, y):
         zs, zu, vs, vu, spin = y
         f = strut(zu - zs, vu - vs)
-        load, drag = tyre(zu, vu, spin)
+        load, drag = tire(zu, vu, spin)
         return [vs, vu, f / m, (2 * load - f) / mu_unsprung, drag * zu / inertia]
 
     start = [0.585, 0.585, -1.83, -1.83, 0.0]
@@ -75,12 +75,12 @@ def scipy_drop(duration: float, times: np.ndarray) -> dict[str, np.ndarray]:
         dense_output=True,
     )
     zs, zu, vs, vu, spin = run.sol(times)
-    tyres = np.array([tyre(*row) for row in zip(zu, vu, spin)])
+    tires = np.array([tire(*row) for row in zip(zu, vu, spin)])
     return {
         "stroke": zu - zs,
         "rate": vu - vs,
-        "load": 2 * tyres[:, 0],
-        "drag": 2 * tyres[:, 1],
+        "load": 2 * tires[:, 0],
+        "drag": 2 * tires[:, 1],
         "spin": spin,
         "strut": np.array([strut(*row) for row in zip(zu - zs, vu - vs)]),
     }
@@ -141,7 +141,7 @@ def flow(area: float, orifice, coefficient: float):
     return coefficient * area**3 * 800.0 / (2 * np.square(orifice))
 
 
-def third_party_tyre(*, radius, pressure, c1, c2, ratio, mass) -> TireParameters:
+def third_party_tire(*, radius, pressure, c1, c2, ratio, mass) -> TireParameters:
     """F = x²/(c1 + c2 x/p); damping 2 ζ √(m dF/dx). SI but for c1 (mm²/N) and c2."""
     c1, c2 = c1 * 1e-6, c2 * 1e3
     x = np.linspace(0.0, 0.3, 601)
@@ -188,7 +188,7 @@ def test_third_party_main_gear():
         seal_friction=0.07,
         extension_stop_stiffness=1e8,
     )
-    tire = third_party_tyre(
+    tire = third_party_tire(
         radius=0.61, pressure=1.15e6, c1=0.008469, c2=0.0005346, ratio=0.15, mass=517.0
     )
     found = third_party_drop(strut, tire, sprung=33390.0, unsprung=517.0, energy=242e3)
@@ -216,7 +216,7 @@ def test_third_party_nose_gear_with_two_gas_chambers(energy, expected):
         seal_friction=0.07,
         extension_stop_stiffness=1e7,
     )
-    tire = third_party_tyre(
+    tire = third_party_tire(
         radius=0.375, pressure=1.05e6, c1=0.00959, c2=0.0009285, ratio=0.10, mass=130.0
     )
     found = third_party_drop(strut, tire, sprung=13200.0, unsprung=130.0, energy=energy)

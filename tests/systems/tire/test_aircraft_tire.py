@@ -1,6 +1,6 @@
-"""A tyre that rolls, drifts and loses energy: laws against closed forms, signs, power.
+"""A tire that rolls, drifts and loses energy: laws against closed forms, signs, power.
 
-The figures of NASA TR R-64 for the A320's tyre sizes are those worked out beside it.
+The figures of NASA TR R-64 for the A320's tire sizes are those worked out beside it.
 """
 
 import math
@@ -14,7 +14,8 @@ from scipy.integrate import solve_ivp
 from systems.runway.runway import Runway
 from systems.tire.aircraft_tire import TireSize, side_force_share, trail_share
 from systems.tire.slip import TabulatedSlip
-from systems.tire.tire_law import TireLaw, TireParameters
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters
 from systems.tools.table import Table
 from tests.systems.tire.test_tire import ONES, rolling, tilted
 
@@ -25,7 +26,7 @@ SIZE = TireSize(diameter=1.168, width=0.4318, rated_pressure=1.531e6)
 
 
 def aircraft_tire(**changes) -> TireParameters:
-    """The main tyre of the A320 class, all of it."""
+    """The main tire of the A320 class, all of it."""
     size = changes.pop("size", SIZE)
     load = 2e6 * size.stiffness_factor
     values = {
@@ -68,7 +69,7 @@ def wheel_at(deflection, speed=70.0, radius=0.584, **motion):
         (NOSE, 14340 * POUND, 0.049, 1.50e6, 0.319, 0.26e6, 0.98e6),
     ],
 )
-def test_tyres_of_the_a320_have_the_figures_worked_out_by_hand(
+def test_tires_of_the_a320_have_the_figures_worked_out_by_hand(
     size, rated, deflection, stiffness, contact_length, power, lateral
 ):
     found = size.deflection(rated)
@@ -102,7 +103,7 @@ def test_pieces_of_the_formulas_meet():
             assert below == pytest.approx(above, rel=2e-3)
 
 
-def test_flat_tyre_keeps_a_thirteenth_of_its_stiffness():
+def test_flat_tire_keeps_a_thirteenth_of_its_stiffness():
     flat = TireSize(diameter=1.2, width=0.45, rated_pressure=1.5e6, inflation=0.0)
     assert flat.stiffness_factor == pytest.approx(0.08 / 1.08)
     assert flat.vertical_force(0.05) > 0.0
@@ -199,7 +200,7 @@ def test_aligning_moment_turns_the_wheel_into_its_travel(sense, side):
     assert abs(trail) < 0.8 * SIZE.half_contact_length(0.1)
 
 
-def test_trail_begins_at_its_value_and_is_gone_where_the_tyre_slides():
+def test_trail_begins_at_its_value_and_is_gone_where_the_tire_slides():
     parameters = quasi_static()
     small = contact(parameters, wheel_at(0.1, side=0.01))
     assert abs(small[2] / small[9]) == pytest.approx(
@@ -208,7 +209,7 @@ def test_trail_begins_at_its_value_and_is_gone_where_the_tyre_slides():
     assert contact(parameters, wheel_at(0.1, side=60.0))[2] == 0.0
 
 
-def test_deflated_tyre_carries_and_corners_less():
+def test_deflated_tire_carries_and_corners_less():
     flat = TireSize(diameter=1.168, width=0.4318, rated_pressure=1.531e6, inflation=0.0)
     full, soft = (
         contact(quasi_static(size=size), wheel_at(0.1, side=3.0))
@@ -288,7 +289,7 @@ def test_relaxation_length_is_cornering_power_over_lateral_stiffness():
 
 
 @pytest.mark.parametrize(("row", "direction"), [(8, 0), (9, 1)])
-def test_locked_tyre_at_rest_is_a_spring_of_the_carcass(row, direction):
+def test_locked_tire_at_rest_is_a_spring_of_the_carcass(row, direction):
     parameters = aircraft_tire()
     law = TireLaw(parameters, Runway())
     stiffness = (SIZE.fore_aft_stiffness, SIZE.lateral_stiffness)[direction](0.1)
@@ -331,7 +332,7 @@ def test_bad_values_are_named(changes, message):
         aircraft_tire(**changes)
 
 
-def test_tyre_without_friction_slides_freely():
+def test_tire_without_friction_slides_freely():
     parameters = quasi_static(
         slip=TabulatedSlip(table=Table((0.0, 0.1), (0.0, 1e-6))), rolling_resistance=0.0
     )

@@ -1,4 +1,4 @@
-"""The tyre: laws against closed forms, power balance for any motion, the system alone.
+"""The tire: laws against closed forms, power balance for any motion, the system alone.
 
 Motions are drawn at random, tilted, skidding and over a profile: what holds there holds
 for an aircraft that rolls straight.
@@ -19,7 +19,8 @@ from systems.runway.runway import Runway
 from systems.runway.runway_profile import Waves
 from systems.tire.slip import SineSlip, TabulatedSlip, reference_speed, secant
 from systems.tire.tire import Tire, TireContact, TireTunables
-from systems.tire.tire_law import TireLaw, TireParameters, inflated_stiffness
+from systems.tire.tire_law import TireLaw
+from systems.tire.tire_parameters import TireParameters, inflated_stiffness
 from systems.tools.table import Table
 
 ONES = [1.0, 1.0, 1.0]
@@ -63,7 +64,7 @@ def values(parameters, wheel, runway=FLAT, state=None, factors=ONES):
 
 
 @given(x=st.floats(0.0, 0.4))
-def test_linear_tyre_is_linear_down_to_the_nominal_force(x):
+def test_linear_tire_is_linear_down_to_the_nominal_force(x):
     law = TireLaw(tire(), FLAT)
     assert law.elastic_force(x) == pytest.approx(2e6 * x, rel=1e-13)
     offset = TireLaw(tire(nominal_force=20e3), FLAT)
@@ -73,7 +74,7 @@ def test_linear_tyre_is_linear_down_to_the_nominal_force(x):
 
 
 @given(x=st.floats(1e-4, 0.149))
-def test_inflated_tyre_follows_its_formula(x):
+def test_inflated_tire_follows_its_formula(x):
     exact = x * x / (8.469e-9 + 0.5346 * x / 1.15e6)
     # Chords of 0.75 mm: error at most F'' h²/8 = 2/c1 h²/8.
     bound = 0.25 / 8.469e-9 * 0.00075**2
@@ -109,7 +110,7 @@ def test_touchdown_brings_no_jump_and_the_air_no_force():
 
 
 @given(depth=st.floats(0.0, 0.2), rate=st.floats(-30.0, 10.0))
-def test_tyre_never_pulls(depth, rate):
+def test_tire_never_pulls(depth, rate):
     wheel = rolling(height=RADIUS - depth, sink=rate)
     assert values(tire(damping=1e5), wheel)[7] >= 0.0
 
