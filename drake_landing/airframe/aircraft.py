@@ -13,6 +13,7 @@ from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import ParametricAircraft
 from fem.arrays import Float64
 from fem.deck.deck import Deck
+from fem.deck.deck_files import deck_files
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 
@@ -65,6 +66,11 @@ class Aircraft:
         if self.check is not None:
             self.check(structure)
         return structure
+
+    @property
+    def files(self) -> tuple[Path, ...]:
+        """The deck and what it includes or assigns, each once, the deck first."""
+        return deck_files(self.deck)
 
     @property
     def steady_load(self) -> Callable[[Structure], Float64] | None:

@@ -4,13 +4,19 @@ A campaign may have several airframes: mass cases, other decks, other selections
 modes. Each has a setup for its landings and the screening, and a second one, larger,
 for direct transients. Both are files; workers read them when they first need them and
 verify the digest that the campaign gave them.
+
+They are kept in the campaign's folder under a key of everything that they follow from.
+A run that goes on reads them again: modes that are computed anew may differ in the last
+digit, or in sign, and amplitudes of landings belong to the very modes they flew with.
 """
 
 import hashlib
+import json
 import pickle
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -18,10 +24,12 @@ import pandas as pd
 import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
-from drake_landing.airframe.body import AirframeModel, load_airframe
+from drake_landing.airframe.body import load_airframe
 from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.campaign.basis import ScreeningBasis, screening_basis
 from drake_landing.case.schema import Case
+from drake_landing.files import versions
+from drake_landing.gears.bodies import mass_points
 from drake_landing.parts.cuts import BeamCuts
 from drake_landing.parts.monitors import Station, without_maps
 from drake_landing.parts.slices import balanced
@@ -34,6 +42,7 @@ from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct, Extension
 from fem.arrays import Float64, Int64
 from fem.files.atomic import written_aside
+from fem.model.structure import Structure
 from systems.airframe.modal_body import ModalBody
 
 
@@ -106,20 +115,31 @@ class Prepared:
     Attributes:
         key: of everything that landings and screening depend on beside the case.
         landing, transient: its files.
-        aircraft, airframe: as the process made them.
+        shapes: file with the displacements by the amplitudes of the screening.
+        aircraft: as the process made it.
         setup: what the first file holds.
         ultimate_factor: of the case's margins.
-        shape: (f, n + 6 k) displacements by the amplitudes of the screening.
     """
 
     key: str
     landing: SetupFile
     transient: SetupFile
+    shapes: SetupFile
     aircraft: Aircraft = field(repr=False)
-    airframe: AirframeModel = field(repr=False)
     setup: LandingSetup = field(repr=False)
     ultimate_factor: float
-    shape: Float64 = field(repr=False)
+
+    @cached_property
+    def structure(self) -> Structure:
+        """The full model, read again."""
+        return self.aircraft.structure()
+
+    @cached_property
+    def shape(self) -> Float64:
+        """(f, n + 6 k) displacements by the amplitudes of the screening."""
+        found = _read(str(self.shapes.path), self.shapes.digest)
+        assert isinstance(found, np.ndarray)
+        return found
 
 
 def airframe_key(case: Case) -> str:
@@ -132,7 +152,7 @@ def airframe_key(case: Case) -> str:
 
 
 def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
-    """Deck, modes, static answers, stress modes; written to the folder.
+    """Deck, modes, static answers, stress modes: read from the folder, or put there.
 
     Args:
         case: the first of those that share the airframe.
@@ -145,16 +165,56 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
     folder.mkdir(parents=True, exist_ok=True)
     with case.reading():
         aircraft = prepare_aircraft(case, folder)
-        progress.stage(f"{aircraft.name}: deck, matrices, modes")
-        structure = aircraft.structure()
-        airframe = load_airframe(
-            case.airframe,
-            aircraft,
-            progress,
-            case.scenario,
-            Cache.of_user(),
-            structure,
-        )
+    key = _input_key(case, aircraft)
+    files = _kept(folder, key)
+    if files is None:
+        with case.reading():
+            files = _compute(case, aircraft, folder, key, progress)
+    return Prepared(
+        key=key,
+        landing=files["landing"],
+        transient=files["transient"],
+        shapes=files["shapes"],
+        aircraft=aircraft,
+        setup=read_landing_setup(files["landing"]),
+        ultimate_factor=case.parts.ultimate_factor,
+    )
+
+
+def _input_key(case: Case, aircraft: Aircraft) -> str:
+    """Of everything that modes, static answers and stress modes depend on."""
+    matrices = case.airframe.matrices
+    files = [*aircraft.files]
+    files += [] if matrices is None else [*matrices.files, matrices.grids]
+    masses = [
+        mass_points(gear) for gear in aircraft.gears
+    ]  # they hang in steady flight
+    chosen = None
+    if case.airframe.select.by_relevance:  # by the pulses of these gears
+        gears = [gear.model_dump_json() for gear in aircraft.gears]
+        chosen = [case.scenario.model_dump_json(), *gears]
+    return content_key(
+        source_key("fem", "systems", "drake_landing"),
+        versions(),
+        [_digest(path.read_bytes()) for path in files],
+        case.airframe.model_dump_json(),
+        case.parts.model_dump_json(),
+        [int(node) for node in aircraft.multibody_nodes],
+        [sorted(gear.attachments.items()) for gear in aircraft.gears],
+        masses,
+        chosen,
+    )
+
+
+def _compute(
+    case: Case, aircraft: Aircraft, folder: Path, key: str, progress: Reporter
+) -> dict[str, SetupFile]:
+    """Of an airframe that has no sound files; those of others than this one go."""
+    progress.stage(f"{aircraft.name}: deck, matrices, modes")
+    structure = aircraft.structure()
+    airframe = load_airframe(
+        case.airframe, aircraft, progress, case.scenario, Cache.of_user(), structure
+    )
     lifting = (*aircraft.lift_nodes, *aircraft.further_lift_nodes)
     nodes = np.unique([*aircraft.attachment_nodes, *lifting])
     progress.stage(f"{aircraft.name}: static answers, stress modes, section loads")
@@ -187,26 +247,28 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
         maps=maps.maps(),
         extension=maps.extension,
     )
-    key = content_key(
-        source_key("fem", "systems", "drake_landing"),
-        *(structure.stiffness, structure.mass, airframe.basis.shape, nodes),
-        [
-            *setup.basis.stress,
-            *setup.basis.sections.values(),
-            *setup.basis.monitors.values(),
-        ],
-        None if steady is None else steady,
-    )
-    return Prepared(
-        key=key,
-        landing=_write(folder / f"landing-{key}.setup", setup),
-        transient=_write(folder / f"transient-{key}.setup", transient),
-        aircraft=aircraft,
-        airframe=airframe,
-        setup=setup,
-        ultimate_factor=case.parts.ultimate_factor,
-        shape=answers.shape,
-    )
+    for old in (*folder.glob("*.setup"), *folder.glob("*.kept.json")):
+        old.unlink()
+    parts = {"landing": setup, "transient": transient, "shapes": answers.shape}
+    files = {n: _write(folder / f"{n}-{key}.setup", part) for n, part in parts.items()}
+    with written_aside(folder / f"{key}.kept.json") as part:  # last: all are there
+        digests = {name: file.digest for name, file in files.items()}
+        part.write_text(json.dumps(digests, indent=1), encoding="utf-8")
+    return files
+
+
+def _kept(folder: Path, key: str) -> dict[str, SetupFile] | None:
+    """The files of a key, where all are there as they were written."""
+    with suppress(OSError, ValueError, KeyError, TypeError):
+        digests = json.loads((folder / f"{key}.kept.json").read_text(encoding="utf-8"))
+        found = {}
+        for name in ("landing", "transient", "shapes"):
+            path = (folder / f"{name}-{key}.setup").resolve()
+            if _digest(path.read_bytes()) != digests[name]:
+                return None
+            found[name] = SetupFile(path=path, digest=digests[name])
+        return found
+    return None
 
 
 def read_landing_setup(file: SetupFile) -> LandingSetup:
@@ -252,15 +314,18 @@ def _without_maps(cuts: BeamCuts) -> BeamCuts:
 
 def _write(path: Path, value: object) -> SetupFile:
     data = pickle.dumps(value, protocol=5)
-    digest = hashlib.blake2b(data, digest_size=16).hexdigest()
     with written_aside(path) as part:
         part.write_bytes(data)
-    return SetupFile(path=path.resolve(), digest=digest)
+    return SetupFile(path=path.resolve(), digest=_digest(data))
+
+
+def _digest(data: bytes) -> str:
+    return hashlib.blake2b(data, digest_size=16).hexdigest()
 
 
 @lru_cache(maxsize=2)
 def _read(path: str, digest: str) -> object:
     data = Path(path).read_bytes()
-    if hashlib.blake2b(data, digest_size=16).hexdigest() != digest:
+    if _digest(data) != digest:
         raise ValueError(f"{path}: is not the setup that the campaign wrote")
     return pickle.loads(data)  # ours: the digest came with the task

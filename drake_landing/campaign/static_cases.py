@@ -54,7 +54,7 @@ def equivalent_loads(own: Prepared, displacement: Float64) -> Float64:
     The free set's rows carry all of it: dependent grids move with them, and forces on
     independent freedoms do the same work.
     """
-    structure = own.airframe.structure
+    structure = own.structure
     force = np.zeros(structure.points.size)
     force[structure.elimination.f] = structure.stiffness @ displacement
     return force
@@ -81,7 +81,7 @@ def static_deck(
     ]
     write_static_deck(
         path,
-        own.airframe.structure,
+        own.structure,
         own.aircraft.deck,
         own.aircraft.units,
         cases,

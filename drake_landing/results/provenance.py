@@ -23,7 +23,6 @@ from drake_landing.case.schema import Case
 from drake_landing.files import versions
 from drake_landing.gears.data import LandingGear
 from fem.algebra.linear_solver.pardiso import pardiso_is_available
-from fem.deck.source import read_source
 from fem.errors import InputError
 
 _GROUP = "provenance"
@@ -221,9 +220,8 @@ def _marks(case: Case, aircraft: Aircraft, out: Path) -> Iterator[FileMark]:
     matrices = case.airframe.matrices
     if matrices is not None:
         files += [("matrices", path) for path in (*matrices.files, matrices.grids)]
-    decks = dict.fromkeys(line.file for line in read_source(aircraft.deck).lines)
-    for k, name in enumerate(decks):
-        files.append(("include" if k else "deck", Path(name)))
+    for k, path in enumerate(aircraft.files):
+        files.append(("include" if k else "deck", path))
     for role, path in files:
         yield FileMark(
             role=role,

@@ -45,6 +45,12 @@ TYPES = ("EXTOP4", "EXTERNAL")
 _UNEVEN = 1e-6  # of the largest entry, between both triangles
 
 
+def assigned_files(executive: Executive) -> dict[int, str]:
+    """Unit -> name of the files with matrices that ASSIGN gives it."""
+    said = " \n".join(executive.statements)
+    return {int(unit): name for name, unit in _ASSIGN.findall(said)}
+
+
 def with_matrices(
     deck: Deck, parts: Mapping[int, Deck], executive: Executive
 ) -> tuple[Deck, dict[int, Deck], list[str]]:
@@ -61,8 +67,7 @@ def with_matrices(
     Raises:
         InputError: all that is wrong with them.
     """
-    said = " \n".join(executive.statements)
-    files = {int(unit): name for name, unit in _ASSIGN.findall(said)}
+    files = assigned_files(executive)
     found, problems, notices = dict(parts), [], []
     names: list[tuple[str, str]] = []
     for _, row in deck.cards["SEBULK"].iterrows():

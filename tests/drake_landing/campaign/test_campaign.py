@@ -14,7 +14,7 @@ import psutil
 import pytest
 
 import drake_landing
-from drake_landing.campaign import command
+from drake_landing.campaign import command, setup
 from drake_landing.campaign.cases import load_campaign
 from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
@@ -28,6 +28,7 @@ from drake_landing.campaign.run import (
 )
 from drake_landing.campaign.task import case_file
 from drake_landing.cli import app
+from drake_landing.progress import Silent
 from drake_landing.report.pdf import browser
 from fem import read_deck, run_deck
 from fem.errors import InputError
@@ -131,6 +132,33 @@ def test_resume_computes_nothing_and_changes_nothing(result: CampaignResult) -> 
     run_campaign(result.campaign, result.folder, Pool(scheduler="here"))
     assert {f: f.stat().st_mtime_ns for f in files} == before
     assert {p: p.read_bytes() for p in tables} == tables
+
+
+def test_an_airframe_is_kept_and_a_damaged_one_made_again(
+    result: CampaignResult, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Modes that left the cache and come out otherwise cannot part from landings."""
+    made: list[str] = []
+
+    def computed(*args: object) -> dict:
+        made.append("airframe")
+        return compute(*args)
+
+    compute = setup._compute
+    monkeypatch.setattr(setup, "_compute", computed)
+    case, place = expand(result.campaign)[1][0], tmp_path / "000"
+    shutil.copytree(result.folder / "airframes" / "000", place)
+    first = setup.prepare(case, place, Silent())
+    assert made == []
+    first.landing.path.write_bytes(b"damaged")
+    again = setup.prepare(case, place, Silent())
+    assert made == ["airframe"]
+    assert again.key == first.key
+    (place / "left.setup").touch()  # of another state of the airframe
+    airframe = case.airframe.model_copy(update={"candidates": 100.0})
+    thinner = case.model_copy(update={"airframe": airframe})
+    assert setup.prepare(thinner, place, Silent()).key != first.key
+    assert len([*place.glob("*.setup")]) == 3
 
 
 def test_static_decks_reproduce_the_stresses(result: CampaignResult) -> None:

@@ -1,0 +1,21 @@
+"""All files that a deck consists of."""
+
+from pathlib import Path
+
+from fem.deck.executive import read_executive
+from fem.deck.sections import split_sections
+from fem.deck.source import found_file, read_source
+from fem.deck.superelement_matrices import assigned_files
+
+
+def deck_files(path: Path) -> tuple[Path, ...]:
+    """The deck, its INCLUDEs, and the matrices that it assigns; each once.
+
+    Raises:
+        InputError: one of them cannot be read.
+    """
+    lines = read_source(path).lines
+    executive = read_executive(split_sections(lines, str(path)).executive)
+    names = dict.fromkeys(line.file for line in lines)
+    assigned = [found_file(name, path) for name in assigned_files(executive).values()]
+    return tuple(dict.fromkeys([*map(Path, names), *assigned]))
