@@ -21,9 +21,9 @@ from fem.loads.thermal import FreeMotions, free_motions, summed
 from fem.model.direct_input import direct_load
 from fem.model.mechanisms import describe
 from fem.model.structure import Structure, system_of
-from fem.model.weight import rigid_modes
 from fem.recovery.elements import element_tables, loaded_bar_tables, station_tables
 from fem.recovery.grid_forces import grid_balance, grids_of, strain_energy
+from fem.solution.equilibrium import UNBALANCED, unbalanced, write_resultants
 from fem.solution.options import Options
 from fem.solution.requests import ELEMENT_RESULTS, detail_of, ids_of, wanted
 
@@ -69,6 +69,14 @@ def solve_statics(
         )
         _write(model, subcase, found, results)
         options.console.say(_summary(model, subcase, found.u_g, found.residual))
+        left = unbalanced(model, found.load, found.residual)
+        if left > UNBALANCED:
+            options.console.say(
+                f"warning: subcase {subcase.id}: loads and reactions balance to "
+                f"{left:.1e} of the largest force alone: stiffness next to each other "
+                "differs by more digits than numbers have; forces and stresses of the "
+                "stiffest elements are that uncertain, or more"
+            )
 
 
 def static_solutions(
@@ -300,7 +308,7 @@ def _write(
     results.write_points(
         f"{name}/spc_force", points, spc_force, asked.get("SPCFORCES", "ALL")
     )
-    _write_resultants(model, found, spc_force, results, name)
+    write_resultants(model, u_g, load, residual, results, name)
     for quantity, label, vector in (
         ("MPCFORCES", "mpc_force", mpc_force),
         ("OLOAD", "applied_load", load),
@@ -316,36 +324,6 @@ def _write(
     write_element_results(
         model, subcase, u_g, results, name, found.element_loads, found.free
     )
-
-
-def _write_resultants(
-    model: Structure,
-    found: StaticSolution,
-    spc_force: Float64,
-    results: ResultFile,
-    name: str,
-) -> None:
-    """What an F06 says first: sums of loads and of forces of constraint, epsilon.
-
-    Of each component of the forces what it adds to the resultant, (6, 6), about the
-    reference point of the weight table; epsilon is the work of the residual over that
-    of the loads, both (2,).
-    """
-    points = model.points
-    arm = rigid_modes(points, model.weight.reference)
-    rotation = points.basic_rotation()
-    for label, vector in (("oload", found.load), ("spc_force", spc_force)):
-        basic = rotation @ vector
-        grids = 6 * len(points.grid_id)
-        parts = np.zeros((6, points.size))
-        for k in range(6):
-            parts[k, k:grids:6] = basic[k:grids:6]
-        results.write(f"{name}/{label}_resultant", (rotation.T @ parts.T).T @ arm)
-    work = float(found.load @ found.u_g)
-    free = model.elimination.T.T @ found.residual
-    error = float((model.elimination.T.T @ found.u_g) @ free)
-    epsilon = error / work if work else 0.0
-    results.write(f"{name}/epsilon", np.array([epsilon, work]))
 
 
 def write_grid_forces(

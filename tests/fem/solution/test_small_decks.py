@@ -454,3 +454,24 @@ def test_motions_without_stiffness_and_mass_are_held_in_time_and_frequency(tmp_p
             omega = 2.0 * np.pi * 2.0
             assert u[:, 2].mean() == pytest.approx(-2.0 / omega**2, rel=1e-9)
         assert u[:, 3] == pytest.approx(0.0, abs=1e-12)
+
+
+SPRINGS = """\
+GRID,1,,0.,0.,0.,,23456
+GRID,2,,1.,0.,0.,,23456
+GRID,3,,2.,0.,0.,,23456
+CELAS2,1,1.1,1,1,2,1
+FORCE,1,3,,7.,1.,0.,0.
+FORCE,2,3,,1.7,1.,0.,0.
+FORCE,3,3,,0.3,1.,0.,0.
+SPC1,5,123456,1
+"""
+
+
+@pytest.mark.parametrize(("stiffness", "said"), [("1.1", False), ("3.+11", True)])
+def test_reactions_that_lose_digits_are_said(solve, stiffness, said):
+    """A displacement of 16 digits times a stiffness 3e11 times as large as others."""
+    case = "SPC = 5\n" + "".join(f"SUBCASE {k}\nLOAD = {k}\n" for k in (1, 2, 3))
+    found = solve(101, case, f"{SPRINGS}CELAS2,2,{stiffness},2,1,3,1")
+    warned = [text for text in found.said if "loads and reactions balance to" in text]
+    assert bool(warned) is said
