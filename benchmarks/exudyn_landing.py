@@ -55,11 +55,11 @@ def oleo(mbs, t, item, elongation, rate, preload, orifice, force):
     return -(gas - orifice * rate * e.abs(rate) + stops)
 
 
-def tyre(mbs, t, item, height, rate, stiffness, damping, offset):
-    """Force of the tyre on its wheel, as that of a spring: positive downward."""
-    p, e = tyre.case, exu.symbolic
+def tire(mbs, t, item, height, rate, stiffness, damping, offset):
+    """Force of the tire on its wheel, as that of a spring: positive downward."""
+    p, e = tire.case, exu.symbolic
     slowed = e.max(rate, -p["largest_damped_rate"])
-    return -stiffness * e.max(-height, 0.0) * (1.0 - p["tyre_damping"] * slowed)
+    return -stiffness * e.max(-height, 0.0) * (1.0 - p["tire_damping"] * slowed)
 
 
 def reduced_body(model: Any, modes: int):
@@ -84,7 +84,7 @@ def reduced_body(model: Any, modes: int):
 
 def land(model: Any, case: dict, step: float) -> dict:
     """One landing; peaks, processor seconds of the simulation alone."""
-    oleo.case = tyre.case = case
+    oleo.case = tire.case = case
     container = exu.SystemContainer()
     mbs = container.AddSystem()
     height = case["oleo_length"]
@@ -156,18 +156,18 @@ def _add_gear(mbs, body, ground, case, gear, face, xyz) -> dict:
             springForceUserFunction=oleo,
         )
     )
-    # The coordinate counts from the reference place, where the tyre just touches.
+    # The coordinate counts from the reference place, where the tire just touches.
     up = mbs.AddMarker(MarkerNodeCoordinate(nodeNumber=node, coordinate=2))
     rubber = mbs.AddObject(
         ObjectConnectorCoordinateSpringDamper(
             markerNumbers=[ground, up],
-            stiffness=gear["tyre"],
+            stiffness=gear["tire"],
             damping=0,
-            springForceUserFunction=tyre,
+            springForceUserFunction=tire,
         )
     )
     sensors = {}
-    for name, item, law in (("oleo", strut, oleo), ("tyre", rubber, tyre)):
+    for name, item, law in (("oleo", strut, oleo), ("tire", rubber, tire)):
         function = CreateSymbolicUserFunction(mbs, law, "springForceUserFunction", item)
         mbs.SetObjectParameter(item, "springForceUserFunction", function)
         sensors[f"{name}_{gear['name']}"] = mbs.AddSensor(

@@ -5,7 +5,7 @@
 Both land the same aircraft (`lattice_aircraft`), in turns in one run. Exudyn comes with
 `pip install '.[peers]'`; with `--exudyn-python` it may live in an environment of its
 own. Times are processor seconds of the simulation alone. Errors are those of the worst
-peak (forces of oleos and tyres) against the finest run of the same code; "modes up to"
+peak (forces of oleos and tires) against the finest run of the same code; "modes up to"
 is the bound of `systems.airframe.slow_modes`, "all" leaves the modes as they are. The
 last column, the peak acceleration of a wing tip in m/s², is not part of the error: it
 follows the jump of all forces at the start, and with it the highest modes.
@@ -37,9 +37,9 @@ PUBLISHED = {
     "oleo_left": 439.1e3,
     "oleo_right": 439.1e3,
     "oleo_nose": 158.3e3,
-    "tyre_left": 442.8e3,
-    "tyre_right": 442.8e3,
-    "tyre_nose": 161.5e3,
+    "tire_left": 442.8e3,
+    "tire_right": 442.8e3,
+    "tire_nose": 161.5e3,
 }
 STEPS = (5e-3, 3e-3, 2e-3, 1e-3, 5e-4)  # s, of Exudyn
 BOUND_HZ = 150.0
@@ -118,7 +118,7 @@ def write_model(path: Path) -> None:
         "stiffness_damping": aircraft.STIFFNESS_DAMPING,
         "side_stiffness": aircraft.SIDE_STIFFNESS,
         "side_damping": aircraft.SIDE_DAMPING,
-        "tyre_damping": aircraft.TYRE_DAMPING,
+        "tire_damping": aircraft.TIRE_DAMPING,
         "largest_damped_rate": aircraft.LARGEST_DAMPED_RATE,
         "gears": [vars(gear) for gear in aircraft.GEARS],
     }

@@ -9,8 +9,8 @@ gear the four corners of a cube's lower face move as one. Damping proportional t
 stiffness, 2 % at 5 Hz.
 
 Gears: oleo of 2 m between the middle of such a face and a point mass, gas n = 1.3 in a
-column of 0.45 m, orifice damping, stops at 0 and 0.40 m; tyre that is stiff upwards
-only, k δ (1 + χ δ'), no friction. No gravity, no lift: at the start the tyres
+column of 0.45 m, orifice damping, stops at 0 and 0.40 m; tire that is stiff upwards
+only, k δ (1 + χ δ'), no friction. No gravity, no lift: at the start the tires
 touch the runway at 3.05 m/s, with the oleos at stroke zero, where gas and stop are not
 in balance.
 """
@@ -33,7 +33,7 @@ SINK_RATE, DURATION = 3.05, 1.0
 OLEO_LENGTH, GAS_LENGTH, GAS_EXPONENT = 2.0, 0.45, 1.3
 STROKE, STOP_STIFFNESS = 0.40, 5e6
 SIDE_STIFFNESS, SIDE_DAMPING = 5e6, 2e4  # N/m, N s/m
-TYRE_DAMPING = 0.02  # s/m, up to LARGEST_DAMPED_RATE
+TIRE_DAMPING = 0.02  # s/m, up to LARGEST_DAMPED_RATE
 LARGEST_DAMPED_RATE = 2.0  # m/s
 TIP = (16, 16, 1)
 
@@ -46,7 +46,7 @@ class PointGear:
     corner: tuple[int, int]
     preload: float  # N
     orifice: float  # N s²/m²
-    tyre: float  # N/m
+    tire: float  # N/m
     wheel: float  # kg
 
 
@@ -56,7 +56,7 @@ GEARS = (
         corner=(16, 3),
         preload=1.6e5,
         orifice=1.2e5,
-        tyre=2.6e6,
+        tire=2.6e6,
         wheel=450.0,
     ),
     PointGear(
@@ -64,7 +64,7 @@ GEARS = (
         corner=(16, -3),
         preload=1.6e5,
         orifice=1.2e5,
-        tyre=2.6e6,
+        tire=2.6e6,
         wheel=450.0,
     ),
     PointGear(
@@ -72,7 +72,7 @@ GEARS = (
         corner=(4, 0),
         preload=4e4,
         orifice=4e4,
-        tyre=1.2e6,
+        tire=1.2e6,
         wheel=120.0,
     ),
 )

@@ -1,6 +1,6 @@
 """The lattice aircraft of `lattice_aircraft`, landed by this project's systems.
 
-Airframe, shock absorbers and tyres are the ordinary systems; the point masses are
+Airframe, shock absorbers and tires are the ordinary systems; the point masses are
 `point_wheels`. The oleo of the case has its full preload at stroke zero and an
 extension stop beyond it; a shock absorber has the stop from zero stroke on and is in
 balance there. They are one law when stroke is counted from the balance, s_0 =
@@ -30,7 +30,7 @@ from benchmarks.lattice_aircraft import (
     STOP_STIFFNESS,
     STROKE,
     TIP,
-    TYRE_DAMPING,
+    TIRE_DAMPING,
     PointGear,
     lattice,
     reduced,
@@ -94,15 +94,15 @@ def _absorber(gear: PointGear) -> ShockAbsorberParameters:
 def _tire(gear: PointGear) -> TireParameters:
     return TireParameters(
         radius=_RADIUS,
-        stiffness=gear.tyre,
-        damping=Table((0.0, 1.0), (0.0, TYRE_DAMPING * gear.tyre), extend=True),
+        stiffness=gear.tire,
+        damping=Table((0.0, 1.0), (0.0, TIRE_DAMPING * gear.tire), extend=True),
         slip=SineSlip(peak=0.0),
     )
 
 
 @dataclass(frozen=True, kw_only=True)
 class LatticeLanding:
-    """The diagram; loggers "oleo_<gear>", "tyre_<gear>" (N) and "tip" (m/s²)."""
+    """The diagram; loggers "oleo_<gear>", "tire_<gear>" (N) and "tip" (m/s²)."""
 
     diagram: Diagram
     airframe: FlexibleAirframe
@@ -149,7 +149,7 @@ def make_landing(body: ModalBody) -> LatticeLanding:
             back = source if system is absorber else f"tire_{gear.name}"
             builder.Connect(system.GetOutputPort(output), wheels.GetInputPort(back))
         ports[f"oleo_{gear.name}"] = absorber.GetOutputPort("force")
-        ports[f"tyre_{gear.name}"] = tire.GetOutputPort("wrench")
+        ports[f"tire_{gear.name}"] = tire.GetOutputPort("wrench")
     loggers = {name: LogVectorOutput(port, builder) for name, port in ports.items()}
     return LatticeLanding(
         diagram=builder.Build(), airframe=airframe, wheels=wheels, loggers=loggers
@@ -158,7 +158,7 @@ def make_landing(body: ModalBody) -> LatticeLanding:
 
 @dataclass(frozen=True, kw_only=True)
 class Landed:
-    """Largest magnitudes, N and m/s²: "oleo_<gear>", "tyre_<gear>", "tip"."""
+    """Largest magnitudes, N and m/s²: "oleo_<gear>", "tire_<gear>", "tip"."""
 
     peaks: dict[str, float]
     evaluations: int
@@ -188,7 +188,7 @@ def land(landing: LatticeLanding, scheme: str, accuracy: float) -> Landed:
     )
     simulator.Initialize()
     simulator.AdvanceTo(DURATION)
-    row = {"tip": 2, "oleo": 0, "tyre": 5}
+    row = {"tip": 2, "oleo": 0, "tire": 5}
     peaks = {
         name: float(np.abs(log.FindLog(root).data()[row[name.split("_")[0]]]).max())
         for name, log in landing.loggers.items()

@@ -4,7 +4,7 @@
 
 First the response of one leg, clamped at its root, to the drag of a spin-up, beside
 Duhamel's integral. Then the conceptual aircraft at 10 ft/s on its main gears; laws of
-tyres and shock absorbers as in the paper, so that the legs are all that differs, and
+tires and shock absorbers as in the paper, so that the legs are all that differs, and
 all of the gear but 1 kg swings. Loads of one main gear at its attachment node, in B.
 """
 

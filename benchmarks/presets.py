@@ -45,7 +45,7 @@ from systems.airframe.modal_body import ModalBody
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "conditions.md"
 
 # An independent rigid model of three freedoms and the wheels' spin, of this aircraft:
-# preset, sink rate, mass in t, then stroke (m) and tyre load (kN) of one main gear and
+# preset, sink rate, mass in t, then stroke (m) and tire load (kN) of one main gear and
 # of the nose gear.
 INDEPENDENT = (
     ("three_point", 1.8288, 72.5, (0.313, 170, 0.342, 74)),
@@ -136,7 +136,7 @@ def loads(trials: dict[str, Trial], static: dict[str, float]) -> Iterator[str]:
     """Table of peaks; of symmetric conditions one main gear."""
     yield (
         "| preset | gear | vertical, kN | over static | drag, kN | over vertical | "
-        "tyres forward, kN | side, kN | over vertical | stroke, m | stop, g |"
+        "tires forward, kN | side, kN | over vertical | stroke, m | stop, g |"
     )
     yield "|---|---|---|---|---|---|---|---|---|---|---|"
     for name, trial in trials.items():
@@ -186,7 +186,7 @@ def rigid_models(body: ModalBody, gears: Sequence[LandingGear]) -> Iterator[str]
     """Table: the rigid aircraft here and in the independent model."""
     yield (
         "| preset | sink, m/s | mass, t | gear | stroke, m | independent | "
-        "tyres, kN | independent |"
+        "tires, kN | independent |"
     )
     yield "|---|---|---|---|---|---|---|---|"
     whole, _ = aircraft_mass_center(body, gears)
@@ -197,12 +197,12 @@ def rigid_models(body: ModalBody, gears: Sequence[LandingGear]) -> Iterator[str]
         )
         peaks = run_preset(name, scaled, gears, sink_rate=sink_rate).peaks
         pairs = zip(("main_left", "nose"), wanted[::2], wanted[1::2])
-        for gear, stroke, tyres in pairs:
+        for gear, stroke, tires in pairs:
             found = peaks.loc[gear]
             yield (
                 f"| `{name}` | {sink_rate:.2f} | {tonnes} | {gear.split('_')[0]} | "
                 f"{found['stroke']:.3f} | {stroke:.3f} | "
-                f"{found['vertical'] / 1e3:.0f} | {tyres} |"
+                f"{found['vertical'] / 1e3:.0f} | {tires} |"
             )
 
 

@@ -26,7 +26,7 @@ assert side.sum(axis=1).abs().max() < 1e-6 * vertical.max()
     "02_drop_test": """
 assert balance < 1e-6
 assert history["force"].iloc[0] == 0
-assert table["tyre load / kN"].is_monotonic_increasing
+assert table["tire load / kN"].is_monotonic_increasing
 """,
     "03_gear_physics": """
 assert gained > 0 and abs(impulse / gained - 1) < 1e-2

@@ -38,7 +38,7 @@ def main_gear() -> list[Row]:
     )
     rig = Rig(
         shock_absorber=strut,
-        tire=_tyre(),
+        tire=_tire(),
         sprung_mass=33390.0,
         unsprung_mass=517.0,
         sink_rate=math.sqrt(2 * 242e3 / (33390.0 + 517.0)),
@@ -57,7 +57,7 @@ def main_gear() -> list[Row]:
     ]
 
 
-def _tyre() -> TireParameters:
+def _tire() -> TireParameters:
     """F = x²/(C1 + C2 x/p) and damping 2 ζ √(m dF/dx) of 517 kg of wheels."""
     c1, c2, pressure, mass, ratio = 0.008469e-6, 0.0005346e3, 1.15e6, 517.0, 0.15
     x = np.linspace(0.0, 0.3, 601)

@@ -1,8 +1,8 @@
 """The load pulse of one landing gear that is dropped with its share of the aircraft.
 
 Two masses and a wheel, the tests of landing gears since N. S. Currey: the share of the
-airframe that the gear stops, on shock absorber, unsprung mass and tyre; the wheel is
-spun up by the tyre's drag. Laws of shock absorber, tyre and friction are those of the
+airframe that the gear stops, on shock absorber, unsprung mass and tire; the wheel is
+spun up by the tire's drag. Laws of shock absorber, tire and friction are those of the
 multibody model. Nothing else of the aircraft enters: the pulse is known before any
 landing is simulated. Levered gears and bogies are taken as telescopic ones: good for
 the spectrum of the pulse, not for loads.
@@ -28,7 +28,7 @@ from systems.tire.tire_parameters import TireParameters
 
 Float64 = npt.NDArray[np.float64]
 
-# s; tyre and unsprung mass vibrate at 10 to 50 Hz, the wheel slips out: 1e-5 of the
+# s; tire and unsprung mass vibrate at 10 to 50 Hz, the wheel slips out: 1e-5 of the
 # peaks. The finer one is for gears of stiffer parts.
 _SUBSTEPS = (2.5e-4, 2.5e-5)
 _LOW_SPEED = 0.5  # m/s, below which there is no spin-up
@@ -67,7 +67,7 @@ def drop_pulse(
         gear: any kind.
         share: mass of the airframe that it stops, kg, without the gear.
         sink_rate, forward_speed: m/s.
-        friction: factor on the tyres' friction.
+        friction: factor on the tires' friction.
         step: of the result, s.
         duration: s.
     """
@@ -121,16 +121,16 @@ class _DropLaw:
     """Equations of motion; state: drop of airframe and of axle, their rates, spin.
 
     Attributes:
-        strut, tyre: of one shock absorber and each tyre.
+        strut, tire: of one shock absorber and each tire.
         wheels: of the gear.
         share, sprung, unsprung: kg; sprung is the share and the gear's own part.
         spin: kg m², of one wheel.
         speed: forward, m/s.
-        friction: factor on the tyres' friction.
+        friction: factor on the tires' friction.
     """
 
     strut: ShockAbsorberParameters
-    tyre: TireParameters
+    tire: TireParameters
     wheels: int
     share: float
     sprung: float
@@ -145,7 +145,7 @@ class _DropLaw:
     ) -> "_DropLaw":
         return cls(
             strut=shock_absorber_parameters(gear.shock_absorber),
-            tyre=tire_parameters(gear.tyre),
+            tire=tire_parameters(gear.tyre),
             wheels=len(gear.wheel_names),
             share=float(share),
             sprung=float(share + gear.sprung_mass),
@@ -164,12 +164,12 @@ class _DropLaw:
         return self.strut.tunables
 
     @cached_property
-    def _tyre_law(self) -> TireLaw:
-        return TireLaw(self.tyre, Runway())
+    def _tire_law(self) -> TireLaw:
+        return TireLaw(self.tire, Runway())
 
     @cached_property
     def _damping(self) -> float:
-        damping = self.tyre.damping
+        damping = self.tire.damping
         return damping if isinstance(damping, int | float) else max(damping.y)
 
     def rate(self, x: Sequence[float]) -> list[float]:
@@ -189,15 +189,15 @@ class _DropLaw:
         return strut * self.share / self.sprung, drag, x[0] - x[1]
 
     def _forces(self, x: Sequence[float]) -> tuple[float, float, float, float]:
-        """Force of the strut, of all tyres: normal and drag; radius of the wheel."""
+        """Force of the strut, of all tires: normal and drag; radius of the wheel."""
         z, u, v, w, omega = x
         strut = self._strut_law.forces(z - u, v - w, 0.0, self._tunables).total
-        law = self._tyre_law
+        law = self._tire_law
         normal = 0.0
         if u > 0.0:
-            damping = min(u / self.tyre.damping_ramp, 1.0) * self._damping
+            damping = min(u / self.tire.damping_ramp, 1.0) * self._damping
             normal = self.wheels * max(law.elastic_force(u) + damping * w, 0.0)
-        radius = max(law.rolling_radius(max(u, 0.0)), 0.5 * self.tyre.radius)
+        radius = max(law.rolling_radius(max(u, 0.0)), 0.5 * self.tire.radius)
         drag = 0.0
         if normal > 0.0 and self.speed > _LOW_SPEED:
             slip = (self.speed - radius * omega) / self.speed

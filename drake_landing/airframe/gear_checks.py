@@ -27,7 +27,7 @@ Float64 = npt.NDArray[np.float64]
 
 _REACH = 10.0  # m, farther from its attachment node no part of a gear lies
 _LEAST_PRELOAD = 0.02  # of the static load; usual are 10 to 20 %
-_TYRE_FLATTENED = (0.005, 0.5)  # static deflection over radius, usual are 0.03 to 0.3
+_TIRE_FLATTENED = (0.005, 0.5)  # static deflection over radius, usual are 0.03 to 0.3
 
 
 def check_gears(
@@ -115,7 +115,7 @@ def gear_problems(
 def gear_remarks(
     gears: Sequence[LandingGear], mass: float, p_AG: npt.ArrayLike
 ) -> tuple[str, ...]:
-    """What is odd: loads at rest against gas and tyres; each begins with the field.
+    """What is odd: loads at rest against gas and tires; each begins with the field.
 
     Args:
         gears: in A.
@@ -134,7 +134,7 @@ def gear_remarks(
                 "of gravity lies outside the wheels"
             )
             continue
-        found = (*_gas_remarks(gear, load), *_tyre_remarks(gear, load))
+        found = (*_gas_remarks(gear, load), *_tire_remarks(gear, load))
         remarks += [f"gears.{gear.name}.{text}" for text in found]
     return tuple(remarks)
 
@@ -211,15 +211,15 @@ def _strut_share(gear: LandingGear) -> float:
     return abs((gear.axle[0] - pivot[0]) / geometry.ratio(0.0))
 
 
-def _tyre_remarks(gear: LandingGear, load: float) -> list[str]:
-    """Of the common tyre where it bears its share; of single ones beside it."""
+def _tire_remarks(gear: LandingGear, load: float) -> list[str]:
+    """Of the common tire where it bears its share; of single ones beside it."""
     each, remarks = load / len(gear.wheel_names), []
-    tyres = {"tyre": gear.tyre} if len(gear.tyres) < len(gear.wheel_names) else {}
-    tyres |= {f"tyres.{wheel}": tyre for wheel, tyre in gear.tyres.items()}
-    for name, data in tyres.items():
-        tyre = tire_parameters(data)
-        law = TireLaw(tyre, Runway())
-        low, high = (share * tyre.radius for share in _TYRE_FLATTENED)
+    tires = {"tyre": gear.tyre} if len(gear.tyres) < len(gear.wheel_names) else {}
+    tires |= {f"tyres.{wheel}": tire for wheel, tire in gear.tyres.items()}
+    for name, data in tires.items():
+        tire = tire_parameters(data)
+        law = TireLaw(tire, Runway())
+        low, high = (share * tire.radius for share in _TIRE_FLATTENED)
         if law.elastic_force(low) < each < law.elastic_force(high):
             continue
         field = "load_table" if data.load_table else "stiffness"
@@ -228,7 +228,7 @@ def _tyre_remarks(gear: LandingGear, load: float) -> list[str]:
         if data.inflation != 1.0 and not little:
             continue  # flat on purpose: others bear its share
         remarks.append(
-            f"{name}.{field}: at rest {each / 1e3:.4g} kN flatten the tyre by {side} "
+            f"{name}.{field}: at rest {each / 1e3:.4g} kN flatten the tire by {side} "
             f"than {bound:.3g} m; stiffness is in N/m"
         )
     return remarks

@@ -122,7 +122,7 @@ def clearances(gears: Sequence[LandingGear], R_WB: Float64) -> dict[str, float]:
     """Height of each gear's lowest wheel over the lowest of all, extended, m."""
     heights = {
         gear.name: min(
-            float(R_WB[2] @ p) - _reach(gear.tyre_of(wheel).radius, R_WB)
+            float(R_WB[2] @ p) - _reach(gear.tire_of(wheel).radius, R_WB)
             for wheel, p in wheel_centres(gear).items()
         )
         for gear in gears
@@ -132,7 +132,7 @@ def clearances(gears: Sequence[LandingGear], R_WB: Float64) -> dict[str, float]:
 
 
 def _reach(radius: float, R_WB: Float64) -> float:
-    """How far a tyre reaches below its centre; a tilted wheel reaches less."""
+    """How far a tire reaches below its centre; a tilted wheel reaches less."""
     return radius * float(np.sqrt(max(1.0 - R_WB[2, 1] ** 2, 0.0)))
 
 

@@ -6,7 +6,7 @@ against that of all shapes that gear loads excite; rms of what is missing over r
 Gear loads: the modes left out answer loads at the attachments almost statically. Their
 share of the flexibility there, ΔC = Σ φ φᵀ/ω² of all less that of the modes that are
 in, lets an attachment yield by ΔC F too little. A gear that closes by s (stroke and
-tyre) under its load F_g meets an airframe that is closer by that much: to first order
+tire) under its load F_g meets an airframe that is closer by that much: to first order
 its load is wrong by ΔC F · F_g/s. That is a share ΔC F / s of its own load, which says
 nothing where a gear is hardly loaded (both are nought for a nose gear in the air): the
 error is taken over the gear's load, or over a tenth of the largest where that is more.
@@ -74,7 +74,7 @@ def load_errors(
     Args:
         all_shapes, chosen: at all attachment nodes, B.
         loads: node -> (t, 6) force and moment on the airframe, B.
-        closing: node of a gear -> largest closure of stroke and tyre along `up`, m.
+        closing: node of a gear -> largest closure of stroke and tire along `up`, m.
         largest: node of a gear -> its largest vertical load, N; 0: it never touches.
 
     Returns:

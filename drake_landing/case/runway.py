@@ -175,16 +175,16 @@ class RunwaySection(Section):
     """The ground."""
 
     surface: Literal["dry", "wet", "icy"] = Field(
-        default="dry", description="sets the friction of the tyres"
+        default="dry", description="sets the friction of the tires"
     )
     friction_factor: float | None = Field(
         default=None,
         ge=0,
-        description="factor on the tyres' dry friction, in place of the surface's",
+        description="factor on the tires' dry friction, in place of the surface's",
     )
     profile: AnyProfile | None = Field(
         default=None,
-        description="height over distance ahead of the foremost tyre; default flat",
+        description="height over distance ahead of the foremost tire; default flat",
     )
     crown: float = number(
         "fall to either side of the centre line, over distance", "1", 0.0, ge=0, le=0.1

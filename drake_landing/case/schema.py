@@ -323,7 +323,7 @@ class Simulation(Section):
         "alone, which allows far larger steps; default: none do",
     )
     clearance: float = number(
-        "height of the lowest tyre over the runway at start", "m", 5e-3, gt=0, le=1
+        "height of the lowest tire over the runway at start", "m", 5e-3, gt=0, le=1
     )
 
 

@@ -160,7 +160,7 @@ def _gear(
     every, down = peaks.all_wheels.get(gear.name), peaks.tail_down.get(gear.name)
     places = np.array(_wheel_places(gear))
     away = places - places.mean(axis=0)
-    tire = gear.tyre_of(gear.wheel_names[0])
+    tire = gear.tire_of(gear.wheel_names[0])
     count = len(gear.wheel_names)
     return Gear(
         name=gear.name,

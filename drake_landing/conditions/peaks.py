@@ -147,7 +147,7 @@ def _peak(history: LandingHistory, gear: str) -> Peak:
     touched = np.flatnonzero(vertical.to_numpy() > 0.0)
     start = history.time[touched[0]] if len(touched) else history.time[row]
     tires = {
-        w: max(history.tyre[w]["deflection"].iloc[row], 0.0)
+        w: max(history.tire[w]["deflection"].iloc[row], 0.0)
         for w in history.wheels[gear]
     }
     stroke = max(float(history.strut[gear]["stroke"].iloc[row]), 0.0)
@@ -163,9 +163,9 @@ def given_peak(gear: LandingGear, vertical: float) -> Peak:
     each = vertical / len(gear.wheel_names)
     tire = {}
     for wheel in gear.wheel_names:
-        law = TireLaw(tire_parameters(gear.tyre_of(wheel)), Runway())
+        law = TireLaw(tire_parameters(gear.tire_of(wheel)), Runway())
         tire[wheel] = _inverse(
-            law.elastic_force, each, 0.9 * gear.tyre_of(wheel).radius
+            law.elastic_force, each, 0.9 * gear.tire_of(wheel).radius
         )
     parameters = shock_absorber_parameters(gear.shock_absorber)
     strut = StrutLaw(parameters)

@@ -32,7 +32,7 @@ from drake_landing.gears.model_file import FIELDS, ModelFile, with_bodies
 from drake_landing.gears.parts import Brake, FurtherAttachment, PitchDamper, Wheel
 from drake_landing.gears.parts import RigidPart as RigidPart
 from drake_landing.gears.shock_absorber_data import ShockAbsorber
-from drake_landing.gears.tyre_data import Tyre
+from drake_landing.gears.tire_data import Tire
 
 _WIDEST = 5.0  # m
 _PIVOT_AXES = "the pivot's axis is the lateral one"
@@ -75,10 +75,10 @@ class LandingGear(Data):
     )
     fitting: RigidPart = Field(description="sprung part: main fitting, stays, doors")
     wheel: Wheel
-    tyre: Tyre = Field(description="of every wheel that `tyres` does not name")
-    tyres: dict[str, Tyre] = Field(
+    tyre: Tire = Field(description="of every wheel that `tyres` does not name")
+    tyres: dict[str, Tire] = Field(
         default={},
-        description="name of a wheel -> what its tyre has otherwise than `tyre`, e.g. "
+        description="name of a wheel -> what its tire has otherwise than `tyre`, e.g. "
         "main_left_right: {inflation: 0}",
         # As it is written: only what differs.
         json_schema_extra={"additionalProperties": {"type": "object"}},
@@ -109,11 +109,11 @@ class LandingGear(Data):
 
     @model_validator(mode="before")
     @classmethod
-    def _complete_tyres(cls, data: Any) -> Any:
-        """Tyres of single wheels have the rest from the common one."""
+    def _complete_tires(cls, data: Any) -> Any:
+        """Tires of single wheels have the rest from the common one."""
         common = data.get("tyre") if isinstance(data, dict) else None
         single = data.get("tyres") if isinstance(data, dict) else None
-        if isinstance(common, Tyre):
+        if isinstance(common, Tire):
             common = common.model_dump(exclude_unset=True)
         if not isinstance(common, dict) or not isinstance(single, dict):
             return data
@@ -136,8 +136,8 @@ class LandingGear(Data):
     def __hash__(self) -> int:
         return hash((self.kind, self.name, self.attachment_node, self.wheel_offsets))
 
-    def tyre_of(self, wheel: str) -> Tyre:
-        """The tyre of a wheel, by its name."""
+    def tire_of(self, wheel: str) -> Tire:
+        """The tire of a wheel, by its name."""
         return self.tyres.get(wheel, self.tyre)
 
     @model_validator(mode="after")

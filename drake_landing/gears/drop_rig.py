@@ -39,7 +39,7 @@ class DropRig:
         diagram: systems `plant` and those of `AddGearSystems`, and `energy_budget`.
         gear: its data.
         mass: kg, gear and all that it stops.
-        height: m, of the carriage on its rail when the lowest tyre touches the ground.
+        height: m, of the carriage on its rail when the lowest tire touches the ground.
         scalar: float or AutoDiffXd.
         loggers: of floats, one sample a step: `strut` (stroke, rate), `force`, of each
             wheel `contact_<wheel>`, of the budget `total`.
@@ -78,7 +78,7 @@ class DropRig:
             context: of the diagram, in its default state.
             sink_rate: m/s; a number of the rig's scalar, as all below.
             speed: m/s, toward -x.
-            clearance: of the lowest tyre, m.
+            clearance: of the lowest tire, m.
             tunables: of `ShockAbsorberTunables`, N, m, N s²/m².
         """
         plant: Any = self.diagram.GetSubsystemByName("plant")
@@ -118,7 +118,7 @@ class DropRig:
 
         Returns:
             Over time (s): stroke (m), rate (m/s), force of the shock absorber (N),
-            vertical load and drag of all tyres (N), total of the energy budget (J).
+            vertical load and drag of all tires (N), total of the energy budget (J).
         """
         simulator = Simulator_[float](self.diagram)
         config = SimulatorConfig(

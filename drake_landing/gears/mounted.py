@@ -1,6 +1,6 @@
-"""The tyre of one wheel and the shock absorber of one gear, whichever system holds it.
+"""The tire of one wheel and the shock absorber of one gear, whichever system holds it.
 
-A tyre is a Drake system of its own, or one of several in a system that holds them all,
+A tire is a Drake system of its own, or one of several in a system that holds them all,
 which takes less time: what speaks of one of them looks the same.
 """
 
@@ -42,7 +42,7 @@ class _Mounted:
 
 
 class MountedTire(_Mounted):
-    """A tyre; contexts are those of the diagram that holds its system.
+    """A tire; contexts are those of the diagram that holds its system.
 
     Attributes:
         system: `Tire` of this wheel, or of all.

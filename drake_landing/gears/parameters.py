@@ -7,7 +7,7 @@ from typing import Any, overload
 
 from drake_landing.gears.parts import Brake, PitchDamper
 from drake_landing.gears.shock_absorber_data import ShockAbsorber
-from drake_landing.gears.tyre_data import Tyre
+from drake_landing.gears.tire_data import Tire
 from systems.gear.bogie_pitch import BogiePitchParameters
 from systems.gear.brake import AntiSkid, BrakeParameters
 from systems.runway.runway import Runway
@@ -104,7 +104,7 @@ def _area(value: float | list[tuple[float, float]] | None) -> Any:
     return _table(value) if isinstance(value, list) else value
 
 
-def tire_parameters(data: Tyre) -> TireParameters:
+def tire_parameters(data: Tire) -> TireParameters:
     """Parameters of `systems.tire.tire`; ValueError where they do not fit."""
     table = _table(data.friction_table)
     slip = (
@@ -154,7 +154,7 @@ def tire_parameters(data: Tyre) -> TireParameters:
     )
 
 
-def _size(data: Tyre) -> TireSize | None:
+def _size(data: Tire) -> TireSize | None:
     if data.width is None or data.pressure is None:
         return None
     return TireSize(
@@ -165,13 +165,13 @@ def _size(data: Tyre) -> TireSize | None:
     )
 
 
-def _rolling_radius(data: Tyre) -> float | Table:
+def _rolling_radius(data: Tire) -> float | Table:
     if isinstance(data.rolling_radius, str):
         return {"effective": 1.0 / 3.0, "loaded": 1.0}[data.rolling_radius]
     return _table(data.rolling_radius)
 
 
-def _cornering(data: Tyre, size: TireSize | None, law: TireLaw) -> Table | None:
+def _cornering(data: Tire, size: TireSize | None, law: TireLaw) -> Table | None:
     """Side force per angle (N/rad) over deflection (m)."""
     over_load: Any
     if data.cornering_slope is not None:
@@ -186,7 +186,7 @@ def _cornering(data: Tyre, size: TireSize | None, law: TireLaw) -> Table | None:
     return Table(x, [over_load(law.elastic_force(d)) for d in x])
 
 
-def _trail(data: Tyre, size: TireSize | None) -> Table | None:
+def _trail(data: Tire, size: TireSize | None) -> Table | None:
     """Pneumatic trail at small angles (m) over deflection (m)."""
     if data.pneumatic_trail is not None:
         trail = data.pneumatic_trail

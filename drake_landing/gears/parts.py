@@ -43,7 +43,7 @@ class RigidPart(Data):
 
 
 class Wheel(Data):
-    """One wheel with tyre and rotating brake parts; all wheels of a gear are equal."""
+    """One wheel with tire and rotating brake parts; all wheels of a gear are equal."""
 
     mass: Positive = Field(description="mass of one wheel, kg, > 0")
     spin_inertia: Positive = Field(description="about the axle, kg m², > 0")
@@ -79,7 +79,7 @@ class AntiSkid(Data):
     )
     protection_load: Positive = Field(
         default=1e4,
-        description="tyre load at which the brake is fully available (touchdown "
+        description="tire load at which the brake is fully available (touchdown "
         "protection), N",
     )
 

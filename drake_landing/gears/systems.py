@@ -83,7 +83,7 @@ def AddGearSystems(
     connect_plant: bool = True,
     together: bool = False,
 ) -> GearSystems:
-    """Adds tyres, shock absorbers and what connects them to a plant.
+    """Adds tires, shock absorbers and what connects them to a plant.
 
     They are named `wheel_kinematics`, `gear_forces`, `tire_<wheel>`,
     `shock_absorber_<gear>`, for gears that have them `brake_<wheel>` and
@@ -100,7 +100,7 @@ def AddGearSystems(
         runway: default flat and dry.
         brakes: applied from the start, on gears that have them; by default none are.
         connect_plant: False leaves both inputs of the plant to the caller, who may
-            then use the port `all_generalized_force`, which holds the tyres' forces.
+            then use the port `all_generalized_force`, which holds the tires' forces.
         together: one system `tires` and one `shock_absorbers` in place of one for each
             wheel and gear: the same laws with fewer calls from Drake into Python, of
             which a landing makes some ten thousand.

@@ -1,4 +1,4 @@
-"""The diagram of a landing: airframe, gears, tyres, and what connects them.
+"""The diagram of a landing: airframe, gears, tires, and what connects them.
 
     plant.state ─▸ wheel_kinematics ─▸ tire_*, shock_absorber_* ... ─▸ gear_forces
     gear_forces, airframe.node_*, plant.state ─▸ attachment
@@ -41,7 +41,7 @@ from systems.runway.runway import Runway
 
 _OFF_GROUND = 1.0  # m
 
-# Of each tyre, and of each shock absorber.
+# Of each tire, and of each shock absorber.
 _OF_TIRES = ("contact", "wrench")
 _OF_ABSORBERS = ("force", "components")
 _LOGGED = {
@@ -88,7 +88,7 @@ class LandingDiagram:
         lift: None where lift equals weight and neither acts.
         reverse_thrust: None where there is none.
         energy_budget: None where not asked for.
-        loggers: by "<system>.<port>", one sample per integration step; of single tyres
+        loggers: by "<system>.<port>", one sample per integration step; of single tires
             and shock absorbers as "tire_<wheel>.contact", "tire_<wheel>.wrench",
             "shock_absorber_<gear>.force" and "shock_absorber_<gear>.components"; stroke
             and rate of a gear as "strut_<gear>.strut", what a leg bends as
@@ -152,7 +152,7 @@ def MakeLandingDiagram(
         brakes: applied from the start, on gears that have them; by default none are.
         energy_budget: adds the audit, at a few per cent of the run time.
         log: adds loggers of the signals that reports need.
-        together: one system for all tyres and one for all shock absorbers, as in
+        together: one system for all tires and one for all shock absorbers, as in
             `AddGearSystems`; the same landing in less time.
 
     Raises:
@@ -252,11 +252,11 @@ def MakeLandingDiagram(
 
 
 def _default_height(body: ModalBody, gears: Sequence[LandingGear]) -> float:
-    """Height of the centre of gravity in a default context, m: tyres are off an even
+    """Height of the centre of gravity in a default context, m: tires are off an even
     runway by `_OFF_GROUND`.
     """
     lowest = min(
-        centre[2] - gear.tyre_of(wheel).radius
+        centre[2] - gear.tire_of(wheel).radius
         for gear in gears
         for wheel, centre in wheel_centres(gear).items()
     )

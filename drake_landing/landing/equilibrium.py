@@ -12,7 +12,7 @@ from pydrake.systems.framework import Context
 
 from drake_landing.gears.mounted import systems_of
 from drake_landing.landing.diagram import LandingDiagram
-from drake_landing.landing.initial_state import attitude, tyre_clearances
+from drake_landing.landing.initial_state import attitude, tire_clearances
 from systems.tools.rotations import quaternion_from_rotation
 
 Float64 = npt.NDArray[np.float64]
@@ -22,9 +22,9 @@ _ITERATIONS = 60
 # moves its largest node by 1 m.
 _LARGEST_STEP = 0.05
 _DIFFERENCE = 1e-7
-# Height that takes all tyres off any runway, m.
+# Height that takes all tires off any runway, m.
 _WELL_CLEAR = 20.0
-# Share of the stroke, and tyre deflection over radius, to start from.
+# Share of the stroke, and tire deflection over radius, to start from.
 _STROKE_SHARE, _DEFLECTION_SHARE = 0.6, 0.1
 
 
@@ -40,7 +40,7 @@ def set_static_equilibrium(
     """The aircraft at rest on its gears, or rolling freely on even ground.
 
     Gravity must act. Airframe and struts are deformed as the weight, less a lift at
-    time zero, wants them; wheels roll without slip. States of tyres and of the energy
+    time zero, wants them; wheels roll without slip. States of tires and of the energy
     budget, and parameters, are set to their defaults.
 
     Args:
@@ -70,7 +70,7 @@ def set_flight_equilibrium(
 ) -> None:
     """Deforms airframe and gears as gravity and lift want them, in steady flight.
 
-    Attitude and velocity of the airframe stay, and the clearance of the lowest tyre;
+    Attitude and velocity of the airframe stay, and the clearance of the lowest tire;
     it must not turn. What the lift at time zero leaves of gravity accelerates the
     whole, and the deformation is that of such flight.
 
@@ -84,14 +84,14 @@ def set_flight_equilibrium(
             f"flight equilibrium: angular velocity {x[10:13]} rad/s, expected none"
         )
     velocity = x[7:10].copy()
-    clearance = min(tyre_clearances(landing, context).values())
+    clearance = min(tire_clearances(landing, context).values())
     x[7:10] = 0.0
     x[2] += _WELL_CLEAR
     airframe.SetContinuousState(x)
     _Rest(landing, context, x[:2], None).solve(tolerance)
     x = airframe.get_continuous_state_vector().CopyToVector()
     x[7:10] = velocity
-    x[2] += clearance - min(tyre_clearances(landing, context).values())
+    x[2] += clearance - min(tire_clearances(landing, context).values())
     airframe.SetContinuousState(x)
     landing.attachment.place_fittings(context)
 
@@ -168,7 +168,7 @@ class _Rest:
             u[at] = _guessed_stroke(self._landing, gear.name, gear.shock_absorber)
             at += len(joints)
         self._set(u)
-        clearance = tyre_clearances(self._landing, self._context)
+        clearance = tire_clearances(self._landing, self._context)
         deflection = {
             name: _DEFLECTION_SHARE * tire.parameters.radius
             for name, tire in self._landing.tires.items()
@@ -229,7 +229,7 @@ def _set_position(
 def _roll(
     landing: LandingDiagram, context: Context, speed: float, heading: float
 ) -> None:
-    """All move with the given speed; wheels turn so that no tyre slips."""
+    """All move with the given speed; wheels turn so that no tire slips."""
     if speed == 0.0:
         return
     airframe = landing.airframe.GetMyMutableContextFromRoot(context)

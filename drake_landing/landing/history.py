@@ -1,7 +1,7 @@
 """What a landing run logs, as tables over time.
 
-Every table has the time in seconds as its index. Signs: tyre forces are those of the
-runway on the tyre (drag aft, side to starboard, vertical up); attachment loads are
+Every table has the time in seconds as its index. Signs: tire forces are those of the
+runway on the tire (drag aft, side to starboard, vertical up); attachment loads are
 those of the gear on the airframe in the axes B of the deck; spin is positive when
 rolling.
 """
@@ -17,7 +17,7 @@ from drake_landing.landing.handover import AttachmentLoads
 Float64 = npt.NDArray[np.float64]
 
 ATTACHMENT = ("fx", "fy", "fz", "mx", "my", "mz")
-TYRE = ("deflection", "vertical", "drag", "side", "slip", "slip_angle", "spin")
+TIRE = ("deflection", "vertical", "drag", "side", "slip", "slip_angle", "spin")
 BENDING = ("fore_aft", "lateral", "torsion")
 STRUT = ("stroke", "rate", "force")
 POINT = ("x", "y", "z")
@@ -41,7 +41,7 @@ class LandingHistory:
             of the gear, further ones `<gear>_<name>`.
         wheels: gear name -> its wheels.
         attachment: attachment -> table with columns `ATTACHMENT`.
-        tyre: wheel name -> table with columns `TYRE`.
+        tire: wheel name -> table with columns `TIRE`.
         strut: gear name -> table with columns `STRUT`.
         bending: gear with an elastic leg -> table with columns `BENDING`: angles about
             the root, lower end aft, to starboard, and about the strut axis up > 0.
@@ -49,7 +49,7 @@ class LandingHistory:
         motion: columns qw qx qy qz px py pz: R_WA and p_WG (m) of the airframe.
         bodies: body of the gears -> (t, 7) quaternion and position (m) in W.
         amplitudes: (t, n) modal amplitudes of the modal body.
-        energy: J; columns kinetic and strain of the airframe, gears, struts, tyres,
+        energy: J; columns kinetic and strain of the airframe, gears, struts, tires,
             dissipated, and `balance`: their sum less its value at the start.
         lift_change: grid -> (t, 3) force (N, B) that the lift there has gained since
             the start; none where the lift is constant.
@@ -59,7 +59,7 @@ class LandingHistory:
     attachment_node: dict[str, int]
     wheels: dict[str, tuple[str, ...]]
     attachment: dict[str, pd.DataFrame]
-    tyre: dict[str, pd.DataFrame]
+    tire: dict[str, pd.DataFrame]
     strut: dict[str, pd.DataFrame]
     monitoring: dict[str, pd.DataFrame]
     motion: pd.DataFrame
@@ -91,17 +91,17 @@ class LandingHistory:
         return AttachmentLoads(time=self.time, node_id=nodes, load=load)
 
     def leg(self, gear: str, column: str) -> pd.Series:
-        """Sum of a tyre quantity over the wheels of a gear."""
+        """Sum of a tire quantity over the wheels of a gear."""
         total = pd.Series(0.0, index=self.motion.index)
         for wheel in self.wheels[gear]:
-            total = total + self.tyre[wheel][column]
+            total = total + self.tire[wheel][column]
         return total
 
 
 def gear_peaks(run: str, history: LandingHistory) -> pd.DataFrame:
     """Columns run, gear, quantity, peak, time: values of largest magnitude, SI.
 
-    Tyre quantities are sums over the wheels of a gear. A gear's further attachments
+    Tire quantities are sums over the wheels of a gear. A gear's further attachments
     have rows of their own.
     """
     rows = []

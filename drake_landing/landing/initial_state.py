@@ -1,4 +1,4 @@
-"""Initial state of a landing: steady flight, the lowest tyre just off the ground."""
+"""Initial state of a landing: steady flight, the lowest tire just off the ground."""
 
 import numpy as np
 import numpy.typing as npt
@@ -41,7 +41,7 @@ def set_initial_state(
     """Undeformed airframe, extended struts, bogies in trim, wheels that do not turn.
 
     The state of gears and airframe is consistent: fittings sit at their nodes and move
-    with them. States of tyres and of the energy budget are set to their defaults, and
+    with them. States of tires and of the energy budget are set to their defaults, and
     so are all parameters.
 
     Args:
@@ -51,7 +51,7 @@ def set_initial_state(
         R_WB: (3, 3) attitude; default level, flying toward -x.
         w_B: (3,) angular velocity in B, rad/s.
         xy: (2,) airframe's centre of gravity over ground, W, m.
-        clearance: of the lowest tyre over the runway, m.
+        clearance: of the lowest tire over the runway, m.
         height: of the airframe's centre of gravity, W, m, in place of a clearance.
 
     Raises:
@@ -74,14 +74,14 @@ def set_initial_state(
 
     if height is None:
         place(0.0)
-        place(clearance - min(tyre_clearances(landing, context).values()))
+        place(clearance - min(tire_clearances(landing, context).values()))
     else:
         place(height)
         _require_above_runway(landing, context)
 
 
 def _require_above_runway(landing: LandingDiagram, context: Context) -> None:
-    clearances = tyre_clearances(landing, context)
+    clearances = tire_clearances(landing, context)
     wheel = min(clearances, key=lambda name: clearances[name])
     if clearances[wheel] < 0:
         raise ValueError(
@@ -90,6 +90,6 @@ def _require_above_runway(landing: LandingDiagram, context: Context) -> None:
         )
 
 
-def tyre_clearances(landing: LandingDiagram, context: Context) -> dict[str, float]:
-    """Height of each tyre's lowest point over the runway below it, m."""
+def tire_clearances(landing: LandingDiagram, context: Context) -> dict[str, float]:
+    """Height of each tire's lowest point over the runway below it, m."""
     return {name: tire.clearance(context) for name, tire in landing.tires.items()}

@@ -25,7 +25,7 @@ from drake_landing.landing.history import (
     BENDING,
     POINT,
     STRUT,
-    TYRE,
+    TIRE,
     LandingHistory,
 )
 from drake_landing.landing.lift import AFT
@@ -266,8 +266,8 @@ def _history(
             name: table((loads[:, i] @ R_AB).reshape(len(keep), 6), ATTACHMENT)
             for i, name in enumerate(attachments)
         },
-        tyre={
-            wheel: table(_tyre(landing, signal, gear.name, wheel), TYRE)
+        tire={
+            wheel: table(_tire(landing, signal, gear.name, wheel), TIRE)
             for gear in landing.gears
             for wheel in gear.wheel_names
         },
@@ -301,8 +301,8 @@ def _history(
     )
 
 
-def _tyre(landing: LandingDiagram, signal, gear: str, wheel: str) -> Float64:
-    """Columns `TYRE`."""
+def _tire(landing: LandingDiagram, signal, gear: str, wheel: str) -> Float64:
+    """Columns `TIRE`."""
     contact = signal(f"tire_{wheel}.contact")
     joint = landing.bodies[gear].spins[wheel]
     rate = signal("plant.state")[

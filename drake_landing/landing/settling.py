@@ -112,7 +112,7 @@ def _comes_down(
         plant.SetPositionsAndVelocities(own, state)
         return {
             wheel: plant.EvalBodyPoseInWorld(own, body).translation()[2]
-            - gear.tyre_of(wheel).radius
+            - gear.tire_of(wheel).radius
             for gear in landing.gears
             for wheel, body in landing.bodies[gear.name].wheels.items()
         }

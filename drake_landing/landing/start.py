@@ -98,7 +98,7 @@ def set_scenario_state(
         landing: of `make_scenario_diagram`.
         context: of the diagram.
         scenario: attitude, velocities, brakes.
-        clearance: of the lowest tyre at touchdown, m.
+        clearance: of the lowest tire at touchdown, m.
 
     Raises:
         ValueError: no state of rest is found.

@@ -55,7 +55,7 @@ class Trial:
     def history(self, gear: str) -> pd.DataFrame:
         """A gear over time (s): sums over its wheels, and its strut.
 
-        Columns: vertical, drag, side (N, of the runway on the tyres; drag aft, side to
+        Columns: vertical, drag, side (N, of the runway on the tires; drag aft, side to
         starboard), stroke (m), rate (m/s), force (N, of the shock absorber), fx to mz
         (N and N m, on the airframe at the gear's first attachment, B).
 

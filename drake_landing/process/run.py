@@ -181,9 +181,9 @@ def _load_errors(
     """Gear that touches -> expected error of its load by modes that are left out."""
     closing, largest = {}, {}
     for gear in aircraft.gears:
-        tyre = max(history.tyre[w]["deflection"].max() for w in gear.wheel_names)
+        tire = max(history.tire[w]["deflection"].max() for w in gear.wheel_names)
         stroke = history.strut[gear.name]["stroke"].max()
-        closing[gear.attachment_node] = float(stroke + max(tyre, 0.0))
+        closing[gear.attachment_node] = float(stroke + max(tire, 0.0))
         vertical = history.leg(gear.name, "vertical").max()
         largest[gear.attachment_node] = float(vertical)
     errors = load_errors(
@@ -358,7 +358,7 @@ def _at_most_lost(what: str, lost: list[str]) -> Iterator[None]:
 def write_landing(history: LandingHistory, out: Path) -> None:
     """CSV tables of the landing alone: what is interrupted later keeps them."""
     write_history_csv(out / "attachment_loads.csv", history.attachment)
-    write_history_csv(out / "tyres.csv", history.tyre)
+    write_history_csv(out / "tyres.csv", history.tire)
     write_history_csv(out / "struts.csv", history.strut)
 
 

@@ -106,7 +106,7 @@ def write_replay(path: Path, result: "ProcessResult") -> None:
     _runway(meshcat, animation, motion, size)
     _airframe(meshcat, animation, result, skeleton, motion, factor)
     R_AB = rotation_AB(result.case.airframe.axes)
-    largest = max(1.0, *(_size(t).max() for t in result.history.tyre.values()))
+    largest = max(1.0, *(_size(t).max() for t in result.history.tire.values()))
     for gear in result.aircraft.gears:
         drawn = gear_in_A(gear, R_AB)
         seen = _gear(meshcat, animation, result, drawn, motion, factor)
@@ -129,7 +129,7 @@ def _caption(
     return (
         f"{result.case.title or result.case.name}: {motion.time[-1]:.2f} s, "
         f"{slowness:.0f} times slower than real, {enlarged}red: forces of the runway "
-        f"on the tyres, the longest {largest / 1e3:.0f} kN"
+        f"on the tires, the longest {largest / 1e3:.0f} kN"
     )
 
 
@@ -229,7 +229,7 @@ def _gear(
         path = f"/gears/{rod.body}/rod_{i}"
         add_rod(meshcat, path, rod, radius)
     for wheel in gear.wheel_names:
-        add_wheel(meshcat, f"/gears/{wheel}_wheel", gear.tyre_of(wheel).radius)
+        add_wheel(meshcat, f"/gears/{wheel}_wheel", gear.tire_of(wheel).radius)
     poses = {
         name: _poses_at(history.time, poses, motion)
         for name, poses in history.bodies.items()
@@ -293,12 +293,12 @@ def _load(
     poses: list[RigidTransform],
     motion: Motion,
 ) -> None:
-    """The force of the runway on a tyre, from the ground beside it."""
-    table = result.history.tyre[wheel]
+    """The force of the runway on a tire, from the ground beside it."""
+    table = result.history.tire[wheel]
     columns = ("deflection", "drag", "side", "vertical")
     values = [np.interp(motion.time, table.index, table[name]) for name in columns]
     offset = gear.wheel_offsets[gear.wheel_names.index(wheel) % len(gear.wheel_offsets)]
-    radius = gear.tyre_of(wheel).radius
+    radius = gear.tire_of(wheel).radius
     aside = (1.0 if offset >= 0.0 else -1.0) * 0.6 * radius
     for i, (X, deflection, drag, side, vertical) in enumerate(zip(poses, *values)):
         axle = X.rotation().matrix()[:, 1]
@@ -311,9 +311,9 @@ def _load(
         arrow.show(animation, i, foot, force)
 
 
-def _size(tyre) -> Float64:
-    """(t,) magnitude of the force on a tyre, N."""
-    return np.sqrt((tyre[["vertical", "drag", "side"]] ** 2).sum(axis=1).to_numpy())
+def _size(tire) -> Float64:
+    """(t,) magnitude of the force on a tire, N."""
+    return np.sqrt((tire[["vertical", "drag", "side"]] ** 2).sum(axis=1).to_numpy())
 
 
 def _poses_at(time: Float64, poses: Float64, motion: Motion) -> list[RigidTransform]:

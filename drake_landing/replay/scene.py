@@ -19,7 +19,7 @@ Float64 = npt.NDArray[np.float64]
 
 _LINE, _SKIN = Rgba(0.17, 0.32, 0.55, 1.0), Rgba(0.86, 0.89, 0.93, 1.0)
 _STRUT, _PISTON = Rgba(0.78, 0.8, 0.83, 1.0), Rgba(0.95, 0.96, 0.97, 1.0)
-_TYRE, _HUB = Rgba(0.13, 0.13, 0.14, 1.0), Rgba(0.62, 0.64, 0.67, 1.0)
+_TIRE, _HUB = Rgba(0.13, 0.13, 0.14, 1.0), Rgba(0.62, 0.64, 0.67, 1.0)
 _SPOKE = Rgba(0.95, 0.6, 0.1, 1.0)
 _GRASS, _GROUND = Rgba(0.47, 0.53, 0.42, 1.0), Rgba(0.52, 0.55, 0.58, 1.0)
 _MARK = Rgba(0.93, 0.93, 0.9, 1.0)
@@ -98,10 +98,10 @@ def add_rod(meshcat: Meshcat, path: str, rod: Rod, radius: float) -> None:
 
 
 def add_wheel(meshcat: Meshcat, path: str, radius: float) -> None:
-    """A tyre, and a cross on the hub that shows that it turns."""
+    """A tire, and a cross on the hub that shows that it turns."""
     width = 0.55 * radius
     for name, shape, color in (
-        ("tyre", Cylinder(radius, width), _TYRE),
+        ("tire", Cylinder(radius, width), _TIRE),
         ("hub", Cylinder(0.55 * radius, 1.02 * width), _HUB),
     ):
         meshcat.SetObject(f"{path}/{name}", shape, color)

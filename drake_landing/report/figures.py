@@ -1,4 +1,4 @@
-"""The pictures of one run: gear loads, struts and tyres, accelerations, energy."""
+"""The pictures of one run: gear loads, struts and tires, accelerations, energy."""
 
 from collections.abc import Iterable, Mapping
 
@@ -53,8 +53,8 @@ def attachment_loads(history: LandingHistory) -> str:
     return "\n".join(pictures)
 
 
-def struts_and_tyres(history: LandingHistory) -> str:
-    """Stroke, force over stroke, tyre loads per gear, wheel speed."""
+def struts_and_tires(history: LandingHistory) -> str:
+    """Stroke, force over stroke, tire loads per gear, wheel speed."""
     gears = list(history.strut)
     with panels(2, 2, height=2.4) as (figure, grid):
         (stroke, vertical), (drag, spin) = grid
@@ -76,14 +76,14 @@ def struts_and_tyres(history: LandingHistory) -> str:
                 )
             titles = {
                 "stroke": "Shock-absorber stroke",
-                "vertical": "Vertical tyre load per gear",
-                "drag": "Tyre drag per gear",
+                "vertical": "Vertical tire load per gear",
+                "drag": "Tire drag per gear",
                 "spin": "Wheel speed, mean of the gear's wheels",
             }
             last = "time, s" if name in ("drag", "spin") else None
             finish(axes, titles[name], unit, x=last)
         legend(figure, stroke)
-        return svg(figure, "strokes, tyre loads and wheel speeds")
+        return svg(figure, "strokes, tire loads and wheel speeds")
 
 
 def force_over_stroke(history: LandingHistory) -> str:

@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 
 
 def gears_section(result: "ProcessResult") -> Section:
-    """Peaks and histories of tyres, shock absorbers and attachments."""
+    """Peaks and histories of tires, shock absorbers and attachments."""
     return Section(
         id="gears",
         title="Landing gears",
-        text="Tyre loads are those of the runway on all tyres of a gear: vertical is "
+        text="Tire loads are those of the runway on all tires of a gear: vertical is "
         "normal to the runway, drag along it, aft. Stroke and force of a shock "
         "absorber are along its own axis, positive in compression. The wheels stand "
         "still at touchdown and are spun up by the drag.",
         blocks=[
             *_gear_peaks(result),
-            Block(svg=figures.struts_and_tyres(result.history)),
+            Block(svg=figures.struts_and_tires(result.history)),
             Block(svg=figures.force_over_stroke(result.history)),
         ],
     )
@@ -39,8 +39,8 @@ def _gear_peaks(result: "ProcessResult") -> Iterator[Block]:
     heads = {
         "gear": "gear",
         "stroke": "stroke m",
-        "tyre_vertical": "tyre vertical kN",
-        "tyre_drag": "tyre drag kN",
+        "tyre_vertical": "tire vertical kN",
+        "tyre_drag": "tire drag kN",
         **{f"attachment_f{a}": f"F{a} kN" for a in "xyz"},
         **{f"attachment_m{a}": f"M{a} kN m" for a in "xyz"},
     }
@@ -54,7 +54,7 @@ def _gear_peaks(result: "ProcessResult") -> Iterator[Block]:
         heads,
         formats,
         f"Load case '{result.case.name}': peaks per gear (largest magnitude, with its "
-        "sign): tyres in the axes of the runway; F and M on the airframe at the "
+        "sign): tires in the axes of the runway; F and M on the airframe at the "
         f"attachment node, axes of the deck ({deck_axes(result.airframe.R_AB)}), "
         "increments to steady flight; the peaks of a row are not of one instant",
     )

@@ -99,8 +99,8 @@ def _panels(result: "ProcessResult") -> Iterator[tuple[str, str, pd.DataFrame]]:
     history = result.history
     gears = list(history.strut)
     for column, title in (
-        ("vertical", "Vertical tyre load per gear, of the runway"),
-        ("drag", "Tyre drag per gear, of the runway, aft"),
+        ("vertical", "Vertical tire load per gear, of the runway"),
+        ("drag", "Tire drag per gear, of the runway, aft"),
     ):
         legs = {_words(g): history.leg(g, column) for g in gears}
         yield title, UNITS[column], pd.DataFrame(legs)

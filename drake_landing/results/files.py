@@ -155,7 +155,7 @@ def _write_loads(group: h5py.Group, loads: AttachmentLoads) -> None:
 def _write_history(group: h5py.Group, history: LandingHistory) -> None:
     kinds = {
         "attachment": history.attachment,
-        "tyre": history.tyre,
+        "tyre": history.tire,
         "strut": history.strut,
         "bending": history.bending,
         "monitoring": history.monitoring,

@@ -22,7 +22,7 @@ _LINES = {
     "of `peak` in `unit`",
     "attachment_loads.csv": "gear on airframe at the attachment nodes over time, "
     "deck's axes, multibody run",
-    "tyres.csv": "each wheel over time: deflection, runway on tyre (vertical, drag "
+    "tyres.csv": "each wheel over time: deflection, runway on tire (vertical, drag "
     "aft, side to starboard), slip, spin",
     "struts.csv": "each shock absorber over time: stroke, rate, force, positive in "
     "compression",
@@ -77,7 +77,7 @@ def write_readme(result: "ProcessResult", folder: Path) -> None:
         "in the\ncolumn `unit` where rows differ. In results.h5: attributes `unit`, or "
         "`columns` with\n`units`, of each dataset.\n"
         f"Axes: the deck's basic frame ({deck_axes(result.airframe.R_AB)}), but those "
-        "of the runway for tyres.\n"
+        "of the runway for tires.\n"
         "Loads, accelerations and stresses are increments to the steady flight before "
         "touchdown\nwhere the report does not say otherwise. Times count from the "
         "start of the run.\n"

@@ -35,12 +35,12 @@ def mode_count(result: "ProcessResult") -> str:
 def key_figures(result: "ProcessResult") -> list[tuple[str, str]]:
     """The five most useful numbers of a run, as text."""
     gears = result.gears.set_index("quantity")
-    tyre, drag, stroke = (
+    tire, drag, stroke = (
         _largest(gears.loc[[quantity]])
         for quantity in ("tyre_vertical", "tyre_drag", "stroke")
     )
     return [
-        ("largest vertical tyre load of a gear", _at(tyre, 1e-3, "kN", ".1f")),
+        ("largest vertical tire load of a gear", _at(tire, 1e-3, "kN", ".1f")),
         ("largest spin-up drag of a gear", _at(drag, 1e-3, "kN", ".1f")),
         ("largest stroke", _at(stroke, 1.0, "m", ".3f")),
         ("highest acceleration", _acceleration(result)),

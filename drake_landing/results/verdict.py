@@ -70,7 +70,7 @@ def _share(error: float) -> str:
 
 
 def _gear_loads(result: "ProcessResult") -> str:
-    """Peaks of each gear's tyres."""
+    """Peaks of each gear's tires."""
     said = []
     for gear, own in result.gears.groupby("gear", sort=False):
         peaks = own.set_index("quantity").peak
@@ -84,7 +84,7 @@ def _gear_loads(result: "ProcessResult") -> str:
             f"{name} {peaks['tyre_vertical'] / 1e3:z.1f} kN vertical, "
             f"{peaks['tyre_drag'] / 1e3:z.1f} kN drag, {peaks['stroke']:.3f} m stroke"
         )
-    return "; ".join(said) + " (peaks of the tyres, runway axes)"
+    return "; ".join(said) + " (peaks of the tires, runway axes)"
 
 
 def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:

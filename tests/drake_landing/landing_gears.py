@@ -80,12 +80,12 @@ def levered_main(name: str = "main_left") -> LandingGear:
 
 
 def bogie_main(name: str = "main_left", **pitch) -> LandingGear:
-    """A four-wheel variant of a main gear, with the tyres of the nose gear's size."""
+    """A four-wheel variant of a main gear, with the tires of the nose gear's size."""
     main = next(gear for gear in aircraft_gears() if gear.name == name)
     data = main.model_dump()
     del data["steering_deg"]
     x, y, z = data.pop("axle")
-    tyre = data["tyre"] | {"stiffness": 1.0e6, "damping": 1.5e3}
+    tire = data["tyre"] | {"stiffness": 1.0e6, "damping": 1.5e3}
     damper = {"trim_deg": 8.0, "stiffness": 2e5, "damping": 2e4, "stop_deg": 20.0}
     return read_gear(
         data
@@ -93,7 +93,7 @@ def bogie_main(name: str = "main_left", **pitch) -> LandingGear:
             "kind": "bogie",
             "pivot": (x, y, z + 0.1),
             "axle_positions": ((x - 0.68, y, z), (x + 0.68, y, z)),
-            "tyre": tyre,
+            "tyre": tire,
             "wheel": data["wheel"]
             | {"mass": 105.0, "spin_inertia": 9.0}
             | {"transverse_inertia": 5.5},

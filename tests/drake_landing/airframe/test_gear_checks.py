@@ -45,7 +45,7 @@ def _absorber(gear, **changes):
     return changed(gear, shock_absorber=gear.shock_absorber.model_dump() | changes)
 
 
-def _tyre(gear, **changes):
+def _tire(gear, **changes):
     return changed(gear, tyre=gear.tyre.model_dump() | changes)
 
 
@@ -196,8 +196,8 @@ def test_root_of_a_leg_lies_above_its_axle_and_near():
             _absorber(LEFT, gas_length=2.0),
             "shock_absorber: the gas gives 65",
         ),
-        (_tyre(LEFT, stiffness=2000.0), "tyre.stiffness: at rest 160"),
-        (_tyre(LEFT, stiffness=2e9), "tyre.stiffness: at rest 160"),
+        (_tire(LEFT, stiffness=2000.0), "tyre.stiffness: at rest 160"),
+        (_tire(LEFT, stiffness=2e9), "tyre.stiffness: at rest 160"),
         (
             changed(LEFT, tyres={"main_left_right": {"stiffness": 2e9}}),
             "tyres.main_left_right.stiffness: at rest 160",

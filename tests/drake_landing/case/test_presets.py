@@ -167,7 +167,7 @@ def test_history_of_a_gear_has_its_peaks():
     assert peaks["spring_back"] == -change.min() > 0.0
     assert change.idxmin() > table["drag"].idxmax()
     assert peaks["spring_back"] < change.max()
-    # Sprung and unsprung masses are between tyres and airframe.
+    # Sprung and unsprung masses are between tires and airframe.
     assert_allclose(table["fz"].max(), peaks["vertical"], rtol=0.15)
     with pytest.raises(ValueError, match="no gear 'main', expected one of nose, main"):
         trial.history("main")
@@ -194,7 +194,7 @@ def test_every_preset_is_valid_and_says_what_it_is():
         assert preset.remarks
 
 
-def test_bump_lies_ahead_of_the_foremost_tyre():
+def test_bump_lies_ahead_of_the_foremost_tire():
     scenario = Scenario.model_validate({"preset": "taxi_bump"})
     landing = make_scenario_diagram(aircraft_body(0), _gears(), scenario)
     nose = 5.07 - landing.body.p_BG[0]

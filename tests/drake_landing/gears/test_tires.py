@@ -1,4 +1,4 @@
-"""Tyres in a case: what follows from width and pressure, a tyre per wheel, messages."""
+"""Tires in a case: what follows from width and pressure, a tire per wheel, messages."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 
 from drake_landing.case.reading import parse_case
 from drake_landing.gears.parameters import tire_parameters
-from drake_landing.gears.tyre_data import Tyre
+from drake_landing.gears.tire_data import Tire
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.reference.d150.gears import landing_gears
 from fem.errors import InputError
@@ -23,7 +23,7 @@ SIZED = {"radius": 0.584, "stiffness": 2e6, "width": 0.4318, "pressure": 1.531e6
 
 
 def test_cornering_trail_and_carcass_follow_from_width_and_pressure():
-    found = tire_parameters(Tyre(**SIZED, carcass="elastic"))
+    found = tire_parameters(Tire(**SIZED, carcass="elastic"))
     size = TireSize(diameter=1.168, width=0.4318, rated_pressure=1.531e6)
     load = TireLaw(found, Runway()).elastic_force(0.1)
     assert found.cornering.value(0.1) == pytest.approx(
@@ -37,7 +37,7 @@ def test_cornering_trail_and_carcass_follow_from_width_and_pressure():
 
 
 def test_given_figures_come_before_those_of_the_size():
-    data = Tyre(
+    data = Tire(
         **SIZED,
         cornering_slope=6.5,
         pneumatic_trail=0.1,
@@ -50,13 +50,13 @@ def test_given_figures_come_before_those_of_the_size():
     assert found.trail.value(0.1) == 0.1
     assert found.lateral_stiffness == 1.8e6
     table = tire_parameters(
-        Tyre(**SIZED, cornering_table=[(0.0, 1e3), (1e5, 8e5), (3e5, 9e5)])
+        Tire(**SIZED, cornering_table=[(0.0, 1e3), (1e5, 8e5), (3e5, 9e5)])
     )
     assert table.cornering.value(0.1) == pytest.approx(8.5e5, rel=1e-3)
 
 
-def test_plain_tyre_has_no_states_and_the_slope_of_its_friction():
-    found = tire_parameters(Tyre(radius=0.5, stiffness=1e6))
+def test_plain_tire_has_no_states_and_the_slope_of_its_friction():
+    found = tire_parameters(Tire(radius=0.5, stiffness=1e6))
     assert not found.lagged
     assert TireLaw(found, Runway()).ratios(0.05, 0.0, -1e-4)[1] == pytest.approx(
         16e-4, rel=1e-3
@@ -74,15 +74,15 @@ def test_paper_set_has_the_laws_of_the_paper_and_the_other_one_has_not():
             assert (found.hysteresis == 0.0) == paper
 
 
-def test_a_flat_tyre_leaves_the_load_to_the_other_one():
+def test_a_flat_tire_leaves_the_load_to_the_other_one():
     gears = list(aircraft_gears())
     sized = gears[1].tyre.model_dump(exclude_unset=True) | {
         "width": 0.43,
         "pressure": 1.5e6,
     }
     gears[1] = changed(gears[1], tyre=sized, tyres={"main_left_left": {"inflation": 0}})
-    assert gears[1].tyre_of("main_left_left").inflation == 0.0
-    assert gears[1].tyre_of("main_left_right").inflation == 1.0
+    assert gears[1].tire_of("main_left_left").inflation == 0.0
+    assert gears[1].tire_of("main_left_right").inflation == 1.0
     run = land(
         MakeLandingDiagram(aircraft_body(0), gears), duration=0.05, accuracy=1e-3
     )
@@ -95,8 +95,8 @@ def test_a_flat_tyre_leaves_the_load_to_the_other_one():
 # --- messages
 
 CASE = (HERE / "tiny_case.yaml").read_text()
-TYRE = "    tyre: {radius: 0.35, stiffness: 500000.0, damping: 600.0"
-LINE = 1 + CASE[: CASE.index(TYRE)].count("\n")
+TIRE = "    tyre: {radius: 0.35, stiffness: 500000.0, damping: 600.0"
+LINE = 1 + CASE[: CASE.index(TIRE)].count("\n")
 
 
 @pytest.mark.parametrize(
@@ -120,8 +120,8 @@ LINE = 1 + CASE[: CASE.index(TYRE)].count("\n")
         ("fore_aft_stiffness: x", "tyre.fore_aft_stiffness: found 'x', expected"),
     ],
 )
-def test_bad_tyre_is_named_with_its_line(added, expected):
-    text = CASE.replace(TYRE, f"{TYRE}, {added}", 1)
+def test_bad_tire_is_named_with_its_line(added, expected):
+    text = CASE.replace(TIRE, f"{TIRE}, {added}", 1)
     with pytest.raises(InputError) as error:
         parse_case(text, file="tiny.yaml", folder=HERE)
     assert any(
@@ -132,28 +132,28 @@ def test_bad_tyre_is_named_with_its_line(added, expected):
 
 def test_bad_property_file_is_named_with_its_line(tmp_path):
     (tmp_path / "bad.tir").write_text("[MODEL]\nFITTYP = 3\n")
-    text = CASE.replace(TYRE, f"{TYRE}, magic_formula: bad.tir", 1)
+    text = CASE.replace(TIRE, f"{TIRE}, magic_formula: bad.tir", 1)
     with pytest.raises(InputError, match=rf":{LINE}: .*line 2: found FITTYP 3"):
         parse_case(text, file="tiny.yaml", folder=tmp_path)
 
 
-def test_tyre_of_an_unknown_wheel_is_named():
-    text = CASE.replace(TYRE, f"    tyres: {{main_right: {{damping: 0}}}}\n{TYRE}", 1)
+def test_tire_of_an_unknown_wheel_is_named():
+    text = CASE.replace(TIRE, f"    tyres: {{main_right: {{damping: 0}}}}\n{TIRE}", 1)
     with pytest.raises(InputError, match="one of the wheels main_right_left, main"):
         parse_case(text, file="tiny.yaml", folder=HERE)
     text = CASE.replace(
-        TYRE, f"    tyres: {{main_right_left: {{dampin: 0}}}}\n{TYRE}", 1
+        TIRE, f"    tyres: {{main_right_left: {{dampin: 0}}}}\n{TIRE}", 1
     )
     with pytest.raises(InputError, match=rf"tiny.yaml:{LINE}.*did you mean 'damping"):
         parse_case(text, file="tiny.yaml", folder=HERE)
 
 
-def test_schema_lets_a_single_tyre_say_only_what_differs():
+def test_schema_lets_a_single_tire_say_only_what_differs():
     field = type(aircraft_gears()[0]).model_json_schema()["properties"]["tyres"]
     assert field["additionalProperties"] == {"type": "object"}
 
 
-def test_flat_tyre_survives_a_round_trip_of_the_case():
+def test_flat_tire_survives_a_round_trip_of_the_case():
     gear = changed(
         aircraft_gears()[1],
         tyre=SIZED,
@@ -161,4 +161,4 @@ def test_flat_tyre_survives_a_round_trip_of_the_case():
     )
     again = type(gear).model_validate(gear.model_dump(mode="json"))
     assert again == gear
-    assert np.isclose(again.tyre_of("main_left_left").inflation, 0.5)
+    assert np.isclose(again.tire_of("main_left_left").inflation, 0.5)

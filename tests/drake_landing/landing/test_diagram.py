@@ -204,7 +204,7 @@ def test_one_gear_landing_loads_one_gear_first(small):
     assert deflection["nose_left"] < 0
 
 
-def test_initial_state_sets_the_lowest_tyre_at_the_clearance():
+def test_initial_state_sets_the_lowest_tire_at_the_clearance():
     runway = Runway(profile=Waves(amplitude=0.2, wavelength=40.0, start=3.0))
     landing = MakeLandingDiagram(aircraft_body(3), aircraft_gears(), runway)
     context = landing.diagram.CreateDefaultContext()

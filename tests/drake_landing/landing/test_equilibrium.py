@@ -12,7 +12,7 @@ from drake_landing.landing.equilibrium import (
 from drake_landing.landing.initial_state import (
     attitude,
     set_initial_state,
-    tyre_clearances,
+    tire_clearances,
 )
 from drake_landing.landing.lift import Lift, aircraft_mass_center, decaying
 from tests.drake_landing.landing_gears import aircraft_gears
@@ -26,7 +26,7 @@ SINK_RATE = 1.83
 
 
 def _loads(landing, context) -> np.ndarray:
-    """Vertical load of each gear's tyres, N."""
+    """Vertical load of each gear's tires, N."""
     loads = []
     for gear in landing.gears:
         tires = [landing.tires[wheel] for wheel in gear.wheel_names]
@@ -120,7 +120,7 @@ def test_flight_with_lift_is_steady(lifted, angles):
     weights = [G * gear.mass for gear in lifted.gears]
     # The lift passes the c.g. of the undeformed aircraft: it turns a little.
     assert_allclose(np.linalg.norm(down, axis=1), weights, rtol=5e-3)
-    assert_allclose(min(tyre_clearances(lifted, context).values()), 0.05)
+    assert_allclose(min(tire_clearances(lifted, context).values()), 0.05)
 
 
 def test_landing_with_lift_and_gravity_is_that_of_neither(lifted):

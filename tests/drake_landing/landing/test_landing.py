@@ -80,7 +80,7 @@ def test_touchdown_is_silent_and_symmetric(history: LandingHistory) -> None:
     assert peaks["main_left", "tyre_vertical"] > 5e3
     assert peaks["main_left", "tyre_drag"] > 0
     assert peaks["main_left", "attachment_fx"] > 0  # drag points aft
-    assert history.tyre["nose"]["spin"].max() > 10  # rolling is positive
+    assert history.tire["nose"]["spin"].max() > 10  # rolling is positive
     assert np.all(np.diff(history.time) > 1e-9)
 
 

@@ -9,7 +9,7 @@ from pydrake.systems.analysis import MonteCarloSimulation, RandomSimulation
 
 from drake_landing.case.scenario import Scenario
 from drake_landing.landing.diagram import MakeLandingDiagram
-from drake_landing.landing.initial_state import tyre_clearances
+from drake_landing.landing.initial_state import tire_clearances
 from drake_landing.landing.random_runs import Scatter, simulator_factory
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.systems.synthetic_body import aircraft_body
@@ -32,7 +32,7 @@ def test_wheels_of_a_context_of_drake_hang_above_the_ground(landing, random):
     context = landing.diagram.CreateDefaultContext()
     if random:
         landing.diagram.SetRandomContext(context, RandomGenerator(3))
-    clearances = tyre_clearances(landing, context)
+    clearances = tire_clearances(landing, context)
     assert min(clearances.values()) == pytest.approx(1.0)
     own = landing.attachment.GetMyContextFromRoot(context)
     gap = landing.attachment.GetOutputPort("gap").Eval(own)

@@ -219,7 +219,7 @@ def test_practices_and_a_page_without_pictures(
 def test_five_key_figures(result: ProcessResult) -> None:
     figures = dict(key_figures(result))
     assert len(figures) == 5
-    assert "kN (main" in figures["largest vertical tyre load of a gear"]
+    assert "kN (main" in figures["largest vertical tire load of a gear"]
 
 
 def test_mass_properties_are_those_of_the_weight_table() -> None:

@@ -11,7 +11,7 @@ from drake_landing.files import write_csv
 from drake_landing.landing.history import (
     ATTACHMENT,
     STRUT,
-    TYRE,
+    TIRE,
     LandingHistory,
     gear_peaks,
 )
@@ -36,7 +36,7 @@ def history() -> LandingHistory:
         attachment_node={"nose": 7, "main": 3},
         wheels={"nose": ("nose",), "main": ("main_left", "main_right")},
         attachment={"nose": table(ATTACHMENT), "main": table(ATTACHMENT, -2)},
-        tyre={w: table(TYRE) for w in ("nose", "main_left", "main_right")},
+        tire={w: table(TIRE) for w in ("nose", "main_left", "main_right")},
         strut={g: table(STRUT) for g in ("nose", "main")},
         monitoring={"tail": table(("x", "y", "z"))},
         motion=table(("qw", "qx", "qy", "qz", "px", "py", "pz")),
@@ -156,10 +156,10 @@ def test_interrupted_writing_leaves_the_old_file(tmp_path: Path) -> None:
 
 
 def test_csv_tables_read_back(tmp_path: Path, history: LandingHistory) -> None:
-    write_history_csv(tmp_path / "tyre.csv", history.tyre)
-    read = pd.read_csv(tmp_path / "tyre.csv", index_col="time [s]")
+    write_history_csv(tmp_path / "tires.csv", history.tire)
+    read = pd.read_csv(tmp_path / "tires.csv", index_col="time [s]")
     assert read["main_left_vertical [N]"].to_numpy() == pytest.approx(
-        history.tyre["main_left"]["vertical"].to_numpy()
+        history.tire["main_left"]["vertical"].to_numpy()
     )
     write_csv(tmp_path / "t.csv", pd.DataFrame({"a": [np.nan, 1 / 3, -0.0]}))
     assert (tmp_path / "t.csv").read_text() == 'a\n""\n0.333333333\n0\n'

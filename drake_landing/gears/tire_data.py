@@ -1,4 +1,4 @@
-"""A tyre as a case file gives it, validated; SI units."""
+"""A tire as a case file gives it, validated; SI units."""
 
 from pathlib import Path
 from typing import Literal, Self
@@ -19,8 +19,8 @@ from drake_landing.gears.fields import (
 )
 
 
-class Tyre(Data):
-    """One tyre. The vertical law is F = stiffness·δ - nominal_force + damping·δ'.
+class Tire(Data):
+    """One tire. The vertical law is F = stiffness·δ - nominal_force + damping·δ'.
 
     With width and pressure, what is not given follows from them (NASA TR R-64).
     """
@@ -89,7 +89,7 @@ class Tyre(Data):
         default=1.0,
         ge=0,
         le=1.5,
-        description="pressure over the rated one: 0 is a flat tyre; beside pressure",
+        description="pressure over the rated one: 0 is a flat tire; beside pressure",
     )
     cornering_slope: Positive | None = Field(
         default=None,
@@ -110,7 +110,7 @@ class Tyre(Data):
     )
     carcass: Literal["rigid", "elastic"] = Field(
         default="rigid",
-        description="elastic: tyre forces follow the slip over relaxation lengths, "
+        description="elastic: tire forces follow the slip over relaxation lengths, "
         "from fore_aft_stiffness and lateral_stiffness",
     )
     fore_aft_stiffness: Positive | None = Field(
