@@ -4,8 +4,8 @@ Compatible linear displacements and rotations on the mean plane; hybrid resultan
 (`shell_hybrid`), edge-sampled transverse shear with MacNeal's residual bending
 flexibility (`shell_shear`), drilling penalty (`shell_drilling`), offset and warp
 (`shell_geometry`). CQUADR has true drilling freedoms instead of the penalty
-(`drilling_membrane`) and is alike otherwise. On rectangles the nodal forces of CQUAD4
-are those of MSC and NX Nastran.
+(`drilling_membrane`) and less flexibility in shear. On rectangles the nodal forces of
+CQUAD4 are those of MSC and NX Nastran, of CQUADR those of MSC.
 """
 
 from typing import TYPE_CHECKING

@@ -205,7 +205,7 @@ class Shell(DenseBlock):
             part = slice(start, start + _CHUNK)
             shape, section = self._shape(part), self.section.take(part)
             local = self._in_plane(shape, section).stiffness()
-            local += shear(shape, section)[0]
+            local += shear(shape, section, drills=self.drills)[0]
             if self.k6rot and not self.drills:
                 local += drilling(shape, section.membrane[:, 2, 2], self.k6rot)
             matrix[part] = matrix_to_grids(local, shape)
@@ -260,7 +260,7 @@ class Shell(DenseBlock):
     def _resultants(self, part: slice, corner: bool) -> Float64:
         shape, section = self._shape(part), self.section.take(part)
         plate = self._in_plane(shape, section).resultant(corner=corner)
-        force = shear(shape, section)[1][:, None]
+        force = shear(shape, section, drills=self.drills)[1][:, None]
         force = np.broadcast_to(force, (*plate.shape[:2], *force.shape[2:]))
         local = np.concatenate([plate, force], axis=2)
         e, p = local.shape[:2]

@@ -54,11 +54,20 @@ class InPlane:
         return found.reshape(e, p, 6, -1)
 
 
-def in_plane(shape: Facet, section: ShellSection) -> InPlane:
-    """Membrane and bending of triangles or quadrilaterals."""
+def in_plane(
+    shape: Facet, section: ShellSection, *, free_across: bool = True
+) -> InPlane:
+    """Membrane and bending of triangles or quadrilaterals.
+
+    Args:
+        shape: geometry.
+        section: of the elements.
+        free_across: what bends linearly along one direction is free across it; else it
+            has no strain there (bending of CQUADR).
+    """
     if shape.corners == 3:
         return _triangle(shape, section)
-    return _quadrilateral(shape, section)
+    return _quadrilateral(shape, section, free_across)
 
 
 def scatter(operator: Float64) -> Float64:
@@ -127,7 +136,9 @@ def _compliance(joined: Float64) -> Float64:
     return np.linalg.inv(scaled) / (scale[:, :, None] * scale[:, None, :])
 
 
-def _line_compliance(joined: Float64, there: Float64, along: Float64) -> Float64:
+def _line_compliance(
+    joined: Float64, there: Float64, along: Float64, free_across: bool
+) -> Float64:
     """(e, 2, 2) of linear resultants N and M along unit vectors (e, 2)."""
     strain = line_strain(along)
     across = line_strain(np.stack([-along[:, 1], along[:, 0]], axis=1))
@@ -136,7 +147,8 @@ def _line_compliance(joined: Float64, there: Float64, along: Float64) -> Float64
     square = np.einsum("ei,eij,ej->e", across, plane, across)
     free = np.einsum("ei,eij,ej->e", strain, plane, across)
     free = np.where(square > 0.0, free / np.where(square > 0.0, square, 1.0), 0.0)
-    strain = strain - free[:, None] * across
+    if free_across:
+        strain = strain - free[:, None] * across
     stiffness = [np.einsum("ei,eij,ej->e", strain, part, strain) for part in parts]
     return _compliance(np.stack(stiffness, axis=1).reshape(-1, 2, 2))
 
@@ -157,7 +169,7 @@ def _of_thickness(compliance: Float64, section: ShellSection) -> Float64:
     return compliance[:, None] * factor[..., :, None] * factor[..., None, :]
 
 
-def _quadrilateral(shape: Facet, section: ShellSection) -> InPlane:
+def _quadrilateral(shape: Facet, section: ShellSection, free_across: bool) -> InPlane:
     derivative = 0.25 * np.stack(
         [
             _CORNERS[:, 0] * (1 + np.outer(_GAUSS[:, 1], _CORNERS[:, 1])),
@@ -177,7 +189,8 @@ def _quadrilateral(shape: Facet, section: ShellSection) -> InPlane:
         at_gauss, weight, _of_thickness(_compliance(joined), section)
     )
     for k, coordinate in ((0, 1), (1, 0)):
-        line = _of_thickness(_line_compliance(joined, there, along[:, k]), section)
+        line = _line_compliance(joined, there, along[:, k], free_across)
+        line = _of_thickness(line, section)
         square = weight * (_GAUSS[:, coordinate] - centre[:, coordinate, None]) ** 2
         pair = np.array([3 + k, 8 + k])
         flexible[:, pair[:, None], pair] = np.sum(

@@ -33,6 +33,13 @@ sum over the edges,
 and the stiffness is the mean over both directions. Half squares have the grid point
 forces of MSC and NX Nastran to six digits; in slender triangles of a foreign airframe
 the moments at the grids balance under MSC's displacements.
+
+CQUADR and CTRIAR have others: Z_r is 3/4 of the sum over the edges and what varies
+takes none of it; of the triangle A / (12 D) in all directions and A / (2 D) of the
+circulation. So say the grid point forces of MSC Nastran (unit and half squares, single
+precision) and its deflections of two rectangles and of an isosceles triangle (1e-7).
+Where the section is rigid in shear (MID3 blank) what varies keeps the flexibility of a
+solid sheet, 6 / (5 G t), as the quadrilateral would lock; MSC's is another (0.2 %).
 """
 
 import numpy as np
@@ -89,8 +96,15 @@ def edge_shear(shape: Facet) -> Float64:
     return operator.reshape(len(edge), n, 6 * n)
 
 
-def shear(shape: Facet, section: ShellSection) -> tuple[Float64, Float64]:
+def shear(
+    shape: Facet, section: ShellSection, *, drills: bool = False
+) -> tuple[Float64, Float64]:
     """Stiffness and resultants of transverse shear, flat local freedoms.
+
+    Args:
+        shape: geometry.
+        section: of the elements.
+        drills: of CQUADR and CTRIAR.
 
     Returns:
         (e, 6 n, 6 n) stiffness and (e, 2, 6 n) shear forces at the centre; both zero
@@ -101,8 +115,20 @@ def shear(shape: Facet, section: ShellSection) -> tuple[Float64, Float64]:
     there = plate[:, None, None]
     base = np.where(there, section.shear_flexibility, np.eye(2))
     residual = np.where(there, residual_flexibility(shape, section), 0.0)
-    part = _quadrilateral if shape.corners == 4 else _triangle
-    stiffness, force = part(shape, base, residual)
+    if shape.corners == 4:
+        varying = _varying(shape, base, residual)
+        if drills:
+            residual, varying = 0.75 * residual, _solid_sheet(base, section)
+        stiffness, force = _quadrilateral(shape, base + residual, varying)
+    else:
+        turning = np.sqrt(4.0 / 3.0 * np.linalg.det(residual).clip(0.0))
+        if drills:
+            # The sum over the edges has the trace (sum of l^2) / (24 D).
+            square = (shape.edges**2).sum(axis=(1, 2))
+            turning = np.einsum("eii->e", residual) * 12.0 * shape.area / square
+            residual = turning[:, None, None] / 6.0 * np.eye(2)
+        turned = base + turning[:, None, None] * np.eye(2)
+        stiffness, force = _triangle(shape, base + residual, turned)
     stiffness[~plate] = 0.0
     force[~plate] = 0.0
     return stiffness, force
@@ -113,9 +139,27 @@ def _congruence(operator: Float64, matrix: Float64) -> Float64:
     return operator.transpose(0, 2, 1) @ (matrix @ operator)
 
 
+def _varying(shape: Facet, base: Float64, residual: Float64) -> Float64:
+    """(e, 2, 2, 2) flexibility of the strains along xi and eta that vary across."""
+    share = twist_shares(natural_vectors(shape))[..., None, None]
+    return base[:, None] + share * residual[:, None]
+
+
+def _solid_sheet(base: Float64, section: ShellSection) -> Float64:
+    """(e, 1, 2, 2) flexibility of the section, of a solid sheet where it has none."""
+    size = np.einsum("eii->e", base)[:, None, None]
+    twisting = section.bending[:, 2:, 2:] * 12.0 / section.thickness[:, None, None] ** 2
+    solid = 1.2 / np.where(twisting > 0.0, twisting, 1.0) * np.eye(2)
+    return np.where(size > 0.0, base, solid)[:, None]
+
+
 def _quadrilateral(
-    shape: Facet, base: Float64, residual: Float64
+    shape: Facet, flexibility: Float64, varying: Float64
 ) -> tuple[Float64, Float64]:
+    """Stiffness and forces from the flexibility (e, 2, 2) of uniform strain.
+
+    `varying` is that of the strains along xi and eta that vary across.
+    """
     edge = edge_shear(shape)
     # Covariant strains: along xi on edges 1-2 and 4-3, along eta on 1-4 and 2-3.
     lower, upper = 0.5 * edge[:, 0], -0.5 * edge[:, 2]
@@ -123,34 +167,31 @@ def _quadrilateral(
     mean = np.stack([0.5 * (lower + upper), 0.5 * (left + right)], axis=1)
     slope = np.stack([0.5 * (upper - lower), 0.5 * (right - left)], axis=1)
     x = shape.xy
-    jacobian = natural_vectors(shape)
     twist = 0.25 * (x[:, 0] - x[:, 1] + x[:, 2] - x[:, 3])
-    inverse = np.linalg.inv(jacobian)
+    inverse = np.linalg.inv(natural_vectors(shape))
     uniform = inverse @ mean
     # A uniform strain has covariant components that vary by the twist of the shape.
     slope = slope - (twist[:, None, :] @ uniform)
-    stiff, area = np.linalg.inv(base + residual), shape.area[:, None, None]
+    stiff, area = np.linalg.inv(flexibility), shape.area[:, None, None]
     stiffness = area * _congruence(uniform, stiff)
-    share = twist_shares(jacobian)[..., None, None]
-    varying = np.linalg.inv(base[:, None] + share * residual[:, None])
-    weight = np.einsum("eik,ekij,ejk->ek", inverse, varying, inverse)
+    stiffer = np.broadcast_to(np.linalg.inv(varying), (len(x), 2, 2, 2))
+    weight = np.einsum("eik,ekij,ejk->ek", inverse, stiffer, inverse)
     stiffness += area / 3.0 * (slope.transpose(0, 2, 1) @ (weight[..., None] * slope))
     return stiffness, stiff @ uniform
 
 
 def _triangle(
-    shape: Facet, base: Float64, residual: Float64
+    shape: Facet, flexibility: Float64, turned: Float64
 ) -> tuple[Float64, Float64]:
+    """Stiffness and forces from the flexibilities (e, 2, 2) of both parts."""
     edge = edge_shear(shape)
     vectors = shape.edges
     length = np.linalg.norm(vectors, axis=-1)
     circulation = edge.sum(axis=1) / length.sum(axis=1)[:, None]
     rest = edge - length[..., None] * circulation[:, None, :]
     uniform = np.linalg.inv(vectors[:, :2]) @ rest[:, :2]
-    stiff, area = np.linalg.inv(base + residual), shape.area[:, None, None]
+    stiff, area = np.linalg.inv(flexibility), shape.area[:, None, None]
     stiffness = area * _congruence(uniform, stiff)
-    turning = np.sqrt(4.0 / 3.0 * np.linalg.det(residual).clip(0.0))
-    turned = np.linalg.inv(base + turning[:, None, None] * np.eye(2))
-    mean = 0.5 * np.einsum("eii->e", turned)[:, None, None]
+    mean = 0.5 * np.einsum("eii->e", np.linalg.inv(turned))[:, None, None]
     stiffness += area * mean * circulation[:, :, None] * circulation[:, None, :]
     return stiffness, stiff @ uniform

@@ -3,7 +3,7 @@
 Its transverse shear is sampled along the sides, with MacNeal's residual bending
 flexibility (`shell_shear`), so that it bends without locking; drilling penalty as for
 the quadrilateral, true drilling of CTRIAR (`drilling_membrane`). On right triangles the
-nodal forces of CTRIA3 are those of MSC and NX Nastran.
+nodal forces of CTRIA3 are those of MSC and NX Nastran, of CTRIAR those of MSC.
 """
 
 from typing import TYPE_CHECKING
