@@ -14,7 +14,8 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from drake_landing.campaign.schema import Campaign, Scale, Value
+from drake_landing.campaign.axes import Scale, Value
+from drake_landing.campaign.schema import Campaign
 from drake_landing.case.document import read_document
 from drake_landing.case.reading import (
     parse_case,

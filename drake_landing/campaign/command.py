@@ -7,10 +7,10 @@ from tempfile import TemporaryDirectory
 
 from drake_landing.airframe.mass_cases import loaded
 from drake_landing.campaign.cases import BaseCase
+from drake_landing.campaign.combinations import case_rows
 from drake_landing.campaign.compare import compare_campaigns
 from drake_landing.campaign.confirm import confirmed_file
 from drake_landing.campaign.critical_decks import write_critical_decks
-from drake_landing.campaign.design import design
 from drake_landing.campaign.engine import Pool
 from drake_landing.campaign.run import (
     CampaignResult,
@@ -66,7 +66,7 @@ def campaign_command(
 
 def _kept(campaign: Campaign, file: Path, folder: Path, out: Path | None) -> str:
     """How far a campaign got, and how to go on with it."""
-    cases, numbers = folder / "cases", design(campaign).index
+    cases, numbers = folder / "cases", case_rows(campaign).index
     flown = sum(case_file(cases, int(n)).is_file() for n in numbers)
     confirmed = sum(confirmed_file(cases, int(n)).is_file() for n in numbers)
     given = "" if out is None else f" --out {shlex.quote(str(out))}"

@@ -18,8 +18,8 @@ import pandas as pd
 
 from drake_landing.cache import content_key
 from drake_landing.campaign.cases import BaseCase
+from drake_landing.campaign.combinations import case_rows
 from drake_landing.campaign.confirm import BlockTask, confirmed_file, run_block
-from drake_landing.campaign.design import design
 from drake_landing.campaign.engine import Engine, Pool, engine
 from drake_landing.campaign.schema import Campaign
 from drake_landing.campaign.selection import last_peak, screening_errors, to_confirm
@@ -99,7 +99,7 @@ def expand(campaign: Campaign) -> tuple[pd.DataFrame, list[Case]]:
         path.startswith("gears.") for path in campaign.axes
     ):
         base = base.with_gears(_named_gears(base.case))
-    rows = design(campaign)
+    rows = case_rows(campaign)
     cases, problems = [], {}
     for number, values in zip(rows.index, rows.to_dict("records")):
         name = f"{campaign.name}_{number:06d}"

@@ -15,86 +15,22 @@ together (latin hypercube), `samples` times for every combination.
 
 import math
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
 from pydantic import (
-    Discriminator,
     Field,
     PrivateAttr,
-    Tag,
     ValidationInfo,
     field_validator,
     model_validator,
 )
 
-from drake_landing.case.places import Places
+from drake_landing.campaign.axes import Axis, Distribution, combined_values
+from drake_landing.case.field_lines import Places
 from drake_landing.case.section import Section, number
-from fem.errors import nearest
 
-Value = bool | int | float | str
 MOST = 200_000  # cases; more would be described for an hour before the first flies
 _PATH = r"^[A-Za-z_][\w*]*(\.[\w*-]+)+$"
-
-
-class Range(Section):
-    """Evenly spaced values, both ends among them."""
-
-    start: float = Field(alias="from", description="first value")
-    stop: float = Field(alias="to", description="last value")
-    count: int = Field(ge=1, le=10_000, description="number of values")
-
-
-class Scale(Section):
-    """Factors on the values of the base case."""
-
-    scale: tuple[float, ...] = Field(min_length=1, description="factors")
-
-
-class Distribution(Section):
-    """A distribution of scipy.stats, truncated."""
-
-    distribution: str = Field(description="name in scipy.stats, e.g. norm, weibull_min")
-    values: dict[str, float] = Field(
-        default={}, description="its parameters by name: loc, scale, shapes (c, a, b)"
-    )
-    low: float | None = Field(default=None, description="values below are cut off")
-    high: float | None = Field(default=None, description="values above are cut off")
-    source: str = Field(default="", description="where the figures come from")
-
-    @field_validator("distribution")
-    @classmethod
-    def _known(cls, name: str) -> str:
-        import scipy.stats  # a second, for campaigns that draw
-
-        known = [
-            n
-            for n in dir(scipy.stats)
-            if isinstance(getattr(scipy.stats, n), scipy.stats.rv_continuous)
-        ]
-        if name not in known:
-            raise ValueError(
-                f"found '{name}', expected a continuous distribution of scipy.stats"
-                + nearest(name, known)
-            )
-        return name
-
-    @model_validator(mode="after")
-    def _frozen(self) -> Self:
-        import scipy.stats
-
-        try:
-            law = getattr(scipy.stats, self.distribution)(**self.values)
-            inside = law.cdf(_or(self.high, float("inf"))) - law.cdf(
-                _or(self.low, float("-inf"))
-            )
-        except TypeError as error:
-            raise ValueError(f"values: {error}") from None
-        if not inside > 0.0:
-            raise ValueError(
-                "nothing of the distribution lies between low and high, or its "
-                "parameters are out of range"
-            )
-        return self
 
 
 class Table(Section):
@@ -114,40 +50,6 @@ class Table(Section):
         if not path.is_file():
             raise ValueError(f"found {path}, no such file")
         return path
-
-
-def _or(value: float | None, other: float) -> float:
-    return other if value is None else value
-
-
-def _kind(value: Any) -> str:
-    if isinstance(value, list | tuple):
-        return "(values)"
-    if isinstance(value, dict):
-        for key, kind in (("scale", "(scale)"), ("distribution", "(distribution)")):
-            if key in value:
-                return kind
-        return "(range)"
-    names = {Range: "(range)", Scale: "(scale)", Distribution: "(distribution)"}
-    return names.get(type(value), "(values)")
-
-
-Axis = Annotated[
-    Annotated[tuple[Value, ...], Field(min_length=1), Tag("(values)")]
-    | Annotated[Range, Tag("(range)")]
-    | Annotated[Scale, Tag("(scale)")]
-    | Annotated[Distribution, Tag("(distribution)")],
-    Discriminator(_kind),
-]
-
-
-def _count(axis: Axis) -> int:
-    """Values that are combined with those of other axes."""
-    if isinstance(axis, Range):
-        return axis.count
-    if isinstance(axis, Distribution):
-        return 1
-    return len(axis.scale if isinstance(axis, Scale) else axis)
 
 
 class Confirm(Section):
@@ -251,7 +153,7 @@ class Campaign(Section):
             )
         if not self.axes and self.table is None:
             raise ValueError("axes: found none, expected at least one, or a table")
-        counts = [_count(axis) for axis in self.axes.values()]
+        counts = [len(combined_values(axis)) or 1 for axis in self.axes.values()]
         cases = math.prod(counts) * max(self.samples, 1)
         if cases > MOST:
             factors = [f"{n}" for n in [*counts, self.samples] if n > 1]

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from drake_landing.case.document import document_text, read_document
-from drake_landing.case.places import Places
+from drake_landing.case.field_lines import Places
 from drake_landing.case.schema import Case
 from fem.errors import InputError, nearest
 from fem.input_files import given_text

@@ -31,10 +31,10 @@ from drake_landing.case.conditions import Conditions
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.deck_frame import Axes
 from drake_landing.case.design_values import with_design_values
+from drake_landing.case.field_lines import Places
 from drake_landing.case.labels import Label
 from drake_landing.case.mass_cases import MassCase, mass_case_of
 from drake_landing.case.parts import Parts
-from drake_landing.case.places import Places
 from drake_landing.case.scenario import Scenario as Scenario
 from drake_landing.case.section import Section, number
 from drake_landing.case.steady import Steady

@@ -7,8 +7,13 @@ import numpy.typing as npt
 
 from drake_landing.case.parts import Parts
 from drake_landing.parts.buckling import BuckledPanels
+from drake_landing.parts.field_pictures import (
+    can_draw,
+    draw_field,
+    mode_field,
+    stress_field,
+)
 from drake_landing.parts.observers import PartsFound
-from drake_landing.parts.pictures import can_draw, draw_field, mode_field, stress_field
 from drake_landing.parts.stress import Stresses
 from drake_landing.parts.stress_observer import Snapshot
 from drake_landing.parts.tables import component_table

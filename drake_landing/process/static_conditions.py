@@ -19,8 +19,8 @@ from drake_landing.case.schema import Case
 from drake_landing.conditions.balance import RigidBalance, holds, rigid_balance
 from drake_landing.conditions.build import OnGround, on_ground
 from drake_landing.conditions.labels import labels
+from drake_landing.conditions.load_pictures import load_pictures
 from drake_landing.conditions.peaks import landing_peaks, sink_rate
-from drake_landing.conditions.pictures import load_pictures
 from drake_landing.conditions.rules import RULES
 from drake_landing.files import write_csv
 from drake_landing.process.aircraft import checked_aircraft

@@ -24,7 +24,7 @@ from drake_landing.airframe.skeleton import Skeleton
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.gears.bodies import leg_lines
 from drake_landing.gears.data import LandingGear
-from drake_landing.gears.pictures import rods
+from drake_landing.gears.rods import rods
 from drake_landing.replay.scene import (
     Arrow,
     add_look,

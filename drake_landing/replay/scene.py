@@ -13,7 +13,7 @@ from pydrake.geometry import (
 from pydrake.math import RigidTransform, RotationMatrix
 
 from drake_landing.airframe.skeleton import Skeleton
-from drake_landing.gears.pictures import Rod
+from drake_landing.gears.rods import Rod
 
 Float64 = npt.NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from drake_landing.files import write_csv
 from drake_landing.show.mesh import drawn_mesh
+from drake_landing.show.mesh_pictures import draw_mesh, draw_modes
 from drake_landing.show.modes import ShownModes, shown_modes
-from drake_landing.show.pictures import draw_mesh, draw_modes
 from drake_landing.show.viewer import write_viewer
 from fem.deck.reader import read_deck
 from fem.errors import InputError

@@ -15,8 +15,8 @@ import numpy.typing as npt
 from jinja2 import Environment, StrictUndefined
 
 from drake_landing.show.mesh import RIGID, Component, DrawnMesh
+from drake_landing.show.mesh_pictures import colour, deformation_factor
 from drake_landing.show.modes import ShownModes
-from drake_landing.show.pictures import colour, deformation_factor
 from fem.files.atomic import write_aside
 
 Int64 = npt.NDArray[np.int64]

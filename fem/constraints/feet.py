@@ -15,7 +15,7 @@ from fem.constraints.equations import Equations, dense_equations, rigid_motion
 from fem.deck.records import TABLES
 from fem.deck.references import column, refer, table
 from fem.elements.connectors.feet import Foot
-from fem.elements.connectors.places import place_connectors
+from fem.elements.connectors.piercing import place_connectors
 from fem.elements.connectors.reader import CONNECTORS
 from fem.geometry.points import Points
 

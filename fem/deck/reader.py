@@ -21,12 +21,13 @@ from pyNastran.bdf.cards.properties.beam import PBEAM
 from pyNastran.bdf.cards.properties.bush import PBUSH
 
 from fem.arrays import Int64
+from fem.deck.card_tables import make_tables
 from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import STATIC_LOADS, check, check_selected
 from fem.deck.cleanup import clean, drop_unused_equations
 from fem.deck.deck import Deck
-from fem.deck.design import set_initial_values
+from fem.deck.design_variables import set_initial_values
 from fem.deck.executive import read_executive
 from fem.deck.fields import Fields
 from fem.deck.lexer import Bulk, RawCard, read_cards
@@ -43,7 +44,6 @@ from fem.deck.superelement_sets import (
     with_chosen_sets,
 )
 from fem.deck.superelements import check_sections, in_one_piece, with_modal
-from fem.deck.tables import make_tables
 from fem.deck.values import Malformed
 from fem.errors import InputError
 

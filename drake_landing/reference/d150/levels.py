@@ -7,7 +7,7 @@ from drake_landing.parametric import ParametricAircraft, WrittenAircraft
 from drake_landing.reference.d150.gears import landing_gears
 from drake_landing.reference.d150.generator import RECIPES, write_model
 from drake_landing.reference.d150.reference_axis import reference_nodes
-from drake_landing.reference.places import reference_places, steady_load
+from drake_landing.reference.named_places import reference_places, steady_load
 
 
 def level(name: str) -> ParametricAircraft:

@@ -155,7 +155,7 @@ def _mark_runs(axes: Axes, study: "Study", topology: str, point: str) -> None:
 
 def budget_bars(study: "Study", topology: str) -> str:
     """Parts of the difference, run by run, for each point."""
-    from drake_landing.reference.studies.tables import BUDGET
+    from drake_landing.reference.studies.study_tables import BUDGET
 
     points = study.plan.points
     rows = -(-len(points) // 2)

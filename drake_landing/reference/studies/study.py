@@ -19,7 +19,7 @@ from drake_landing.reference.studies.gaps import gap_table
 from drake_landing.reference.studies.landings import LandingResult, LandingTask, fly_all
 from drake_landing.reference.studies.plan import Plan, RunName
 from drake_landing.reference.studies.runs import Study, StudyRun
-from drake_landing.reference.studies.tables import (
+from drake_landing.reference.studies.study_tables import (
     budget_table,
     convergence_table,
     study_table,
@@ -175,7 +175,7 @@ def _comparison(
 
 
 def _write(study: Study, out: Path) -> None:
-    from drake_landing.reference.studies.pictures import write_pictures
+    from drake_landing.reference.studies.picture_files import write_pictures
     from drake_landing.reference.studies.report import write_study_report
 
     write_csv(out / "comparison.csv", study.comparison)

@@ -9,7 +9,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.references import column, refer, table, where
 from fem.elements.connectors.connector import Connectors, weld_stiffness
 from fem.elements.connectors.feet import Foot, merged
-from fem.elements.connectors.places import Placed, place_connectors
+from fem.elements.connectors.piercing import Placed, place_connectors
 from fem.elements.lines.line_geometry import axes_about, axes_from_vector
 from fem.elements.scalars.bush import relative_motion
 from fem.errors import InputError

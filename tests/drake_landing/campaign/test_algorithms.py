@@ -11,10 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from drake_landing.campaign import section_envelopes
-from drake_landing.campaign.design import design, quantiles
+from drake_landing.campaign.axes import Distribution, quantiles
+from drake_landing.campaign.combinations import case_rows
 from drake_landing.campaign.fatigue import cycles, damage
 from drake_landing.campaign.hulls import DIRECTIONS, hull_rows
-from drake_landing.campaign.schema import Campaign, Distribution, Fatigue
+from drake_landing.campaign.schema import Campaign, Fatigue
 from drake_landing.campaign.set_cover import candidates, greedy_cover
 from drake_landing.campaign.statistics import exceedance
 from drake_landing.campaign.task import PAIRS
@@ -115,9 +116,9 @@ def test_design_is_product_times_samples_and_repeats(tmp_path: Path) -> None:
         "scenario.pitch": {"distribution": "uniform", "values": {"scale": 8.0}},
     }
     campaign = _campaign(tmp_path, axes=axes, samples=5, seed=3)
-    rows = design(campaign)
+    rows = case_rows(campaign)
     assert len(rows) == 2 * 3 * 5
-    assert rows.equals(design(campaign))
+    assert rows.equals(case_rows(campaign))
     # A latin hypercube has one sample in each fifth of the distribution.
     fifths = (rows["scenario.pitch"].astype(float) // 1.6).to_numpy().reshape(6, 5)
     assert (np.sort(fifths, axis=1) == np.arange(5)).all()

@@ -12,7 +12,7 @@ from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.slices import balanced
 from drake_landing.reference.d150 import write_model
-from drake_landing.reference.places import reference_places, steady_load
+from drake_landing.reference.named_places import reference_places, steady_load
 from fem.deck.reader import read_deck
 from fem.errors import InputError
 from fem.model.structure import Structure

@@ -9,7 +9,7 @@ import pytest
 from drake_landing.airframe.skeleton import Skeleton
 from drake_landing.case.reading import load_case
 from drake_landing.gears.bodies import leg_lines
-from drake_landing.gears.pictures import rods
+from drake_landing.gears.rods import rods
 from drake_landing.replay.record import deformation_factor, enlarged_bending
 from tests.drake_landing.landing_gears import changed
 

@@ -8,20 +8,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from drake_landing.campaign.schema import (
-    Axis,
-    Campaign,
-    Distribution,
-    Range,
-    Scale,
-    Value,
-)
-from fem.arrays import Float64
+from drake_landing.campaign.axes import Distribution, Value, combined_values, quantiles
+from drake_landing.campaign.schema import Campaign
 from fem.errors import InputError, nearest
 from fem.input_files import given_text
 
 
-def design(campaign: Campaign) -> pd.DataFrame:
+def case_rows(campaign: Campaign) -> pd.DataFrame:
     """One row per case, one column per field that varies, in a fixed order.
 
     Values of a column that `Scale` gives are factors: see `cases.case_of`. The same
@@ -30,7 +23,7 @@ def design(campaign: Campaign) -> pd.DataFrame:
     Raises:
         InputError: the table of measured values has not the columns that are asked for.
     """
-    fixed = {p: _values(a) for p, a in campaign.axes.items() if _listed(a)}
+    fixed = {p: v for p, a in campaign.axes.items() if (v := combined_values(a))}
     drawn = {p: a for p, a in campaign.axes.items() if isinstance(a, Distribution)}
     rows: list[dict[str, Value]] = []
     rng = np.random.default_rng(campaign.seed)
@@ -42,19 +35,6 @@ def design(campaign: Campaign) -> pd.DataFrame:
     frame = pd.DataFrame(rows, columns=pd.Index(columns), dtype=object)
     frame.index = pd.RangeIndex(len(frame), name="case")
     return frame
-
-
-def _listed(axis: Axis) -> bool:
-    return not isinstance(axis, Distribution)
-
-
-def _values(axis: Axis) -> list[Value]:
-    if isinstance(axis, Range):
-        return [float(x) for x in np.linspace(axis.start, axis.stop, axis.count)]
-    if isinstance(axis, Scale):
-        return list(axis.scale)
-    assert not isinstance(axis, Distribution)
-    return list(axis)
 
 
 def _samples(
@@ -78,16 +58,6 @@ def _samples(
         columns |= {str(name): picked[name].tolist() for name in measured.columns}
     for values in zip(*columns.values()):
         yield dict(zip(columns, values))
-
-
-def quantiles(axis: Distribution, share: Float64) -> Float64:
-    """Values of a truncated distribution at shares (n,) of its probability."""
-    import scipy.stats
-
-    law = getattr(scipy.stats, axis.distribution)(**axis.values)
-    low = 0.0 if axis.low is None else law.cdf(axis.low)
-    high = 1.0 if axis.high is None else law.cdf(axis.high)
-    return np.asarray(law.ppf(low + share * (high - low)))
 
 
 def _read_csv(path: Path) -> pd.DataFrame:

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from drake_landing.conditions import pictures
+from drake_landing.conditions import load_pictures as pictures
 from drake_landing.conditions.cases23 import unequal_tires
 from drake_landing.conditions.ground import BookCase, load
 from drake_landing.conditions.mirror import are_alike, without_mirror_images
