@@ -36,6 +36,13 @@ from fem.deck.param_cards import read_parameters
 from fem.deck.records import CARDS
 from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
+from fem.deck.superelement_images import (
+    check_images,
+    images,
+    mirrored,
+    of_primaries,
+    with_primary,
+)
 from fem.deck.superelement_matrices import with_matrices
 from fem.deck.superelement_sets import (
     Superelement,
@@ -125,7 +132,9 @@ def read_deck(
             for card in bulk.cards
             if card.name == "TEMPP3" and card.name not in ignore
         ]
-    parts = _superelements(path, sections, ignore, problems)
+    if not problems:
+        problems += check_images(deck, {*sections.superelements})
+    parts = _superelements(path, sections, ignore, problems, deck)
     if not parts and not problems:
         problems += check_sections(deck, parts)
     subcases = list(case.subcases)
@@ -314,12 +323,19 @@ def _superelements(
     sections: Sections,
     ignore: Collection[str],
     problems: list[str],
+    main: Deck,
 ) -> Mapping[int, Deck]:
-    """Decks of the BEGIN SUPER=n sections."""
-    decks = {}
-    for number, lines in sections.superelements.items():
-        bulk, notices = read_cards(lines), []
+    """Decks of the BEGIN SUPER=n sections and of images of them."""
+    decks, copies = {}, {} if problems else images(main)
+    read = {n: read_cards(lines) for n, lines in sections.superelements.items()}
+    for number in of_primaries(copies, {*read}):
+        bulk, notices = read.get(number), []
+        if number in copies:
+            bulk = with_primary(bulk, read[copies[number]])
+        assert bulk is not None
         deck = _deck(path, bulk, CaseControl(subcases=()), ignore, problems, notices)
+        if number in copies and not problems:
+            deck = mirrored(main, deck, number, problems)
         decks[number] = Deck(
             path=path, cards=deck.cards, params=deck.params, notices=tuple(notices)
         )

@@ -42,7 +42,8 @@ def offsets(whole: list[Tables], part: Tables, number: int) -> dict[str, int]:
     for kind in sorted(set(_KINDS.values())):
         taken: set[int] = set().union(*(ids_of_kind(tables, kind) for tables in whole))
         own = ids_of_kind(part, kind)
-        step = 10 ** len(str(max(taken | own, default=1)))
+        # Digits of ids as written: those of other parts have an offset already.
+        step = 10 ** len(str(max(ids_of_kind(whole[0], kind) | own, default=1)))
         shift = 0 if taken.isdisjoint(own) else number * step
         while not taken.isdisjoint({i + shift for i in own}):
             shift += step

@@ -43,6 +43,7 @@ _OF_REDUCTION = (
     "SEBULK",
     "SECONCT",
     "SELOC",
+    "SEMPLN",
     "EIGRL",
 )
 # They act on all masses of a model, there on those of their part.
@@ -159,10 +160,10 @@ def check_sections(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
     problems = []
     for _, row in deck.cards["SEBULK"].iterrows():
         place = f"{row['file']}:{row['line']}: SEBULK {row['seid']}"
-        if row["type"] not in ("PRIMARY", "PRIM", *EXTERNAL):
+        if row["type"] not in ("PRIMARY", "PRIM", "REPEAT", "MIRROR", *EXTERNAL):
             problems.append(
                 f"{place}: type {row['type']}, expected PRIMARY with BEGIN SUPER = "
-                f"{row['seid']}, EXTOP4, or EXTERNAL with DMIG"
+                f"{row['seid']}, REPEAT, MIRROR, EXTOP4, or EXTERNAL with DMIG"
             )
         elif row["seid"] not in parts:
             problems.append(f"{place}: BEGIN SUPER = {row['seid']} is not in the deck")

@@ -133,6 +133,8 @@ RECORDS = (
     ),
     # Rows of the matrices of an external superelement.
     Card(name="EXTRN", group=_SETS, fields=_FREEDOMS),
+    # The plane of an image by MIRROR, through three points of the main section.
+    Card(name="SEMPLN", group=_SETS, fields="seid:i plane:s p1:i p2:i p3:i"),
     # Three points of the superelement and their places in the main section.
     Card(
         name="SELOC",
