@@ -27,10 +27,20 @@ ANALYSES: Mapping[str, int] = {
 }
 """What ANALYSIS of a subcase may say, and the solution that it means."""
 
+_NONLINEAR = frozenset({106, 129, 153, 159, 400, 401, 402, 600, 601, 701})
+"""Solutions whose ANALYSIS names a step of a nonlinear one, STATICS too."""
+
 SUPPORTED = (101, 103, 105, 108, 109, 111, 112)
 
 _NEED_MODES = frozenset({103, 111, 112})
 _COUNT = 16  # modes where the deck has no EIGRL: six of a free body and ten
+
+
+def asked_by(case: Subcase, number: int) -> int:
+    """The solution that a subcase of SOL `number` asks for."""
+    if number in _NONLINEAR:
+        return number
+    return ANALYSES.get(case.analysis.upper(), number)
 
 
 def ways_on(subcases: Sequence[Subcase]) -> str:

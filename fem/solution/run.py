@@ -1,5 +1,6 @@
 """The story of a run: model, solutions of the subcases, result file."""
 
+import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import perf_counter
@@ -10,7 +11,7 @@ from fem.arrays import Float64
 from fem.deck.case_control import Subcase, read_case_control
 from fem.deck.deck import Deck
 from fem.deck.executive import read_executive
-from fem.deck.sections import split_sections
+from fem.deck.sections import Sections, split_sections
 from fem.deck.source import read_source
 from fem.deck.superelement_sets import split_subcases
 from fem.errors import InputError, by_kind
@@ -22,7 +23,7 @@ from fem.solution.external import NOTICE, with_boundary_held
 from fem.solution.frequency import solve_frequencies
 from fem.solution.modes import solve_modes
 from fem.solution.options import WRITTEN, Options
-from fem.solution.override import ANALYSES, ways_on
+from fem.solution.override import asked_by, ways_on
 from fem.solution.requests import check_requests
 from fem.solution.static import solve_statics
 from fem.solution.transient import solve_transients
@@ -116,10 +117,27 @@ def solution_problems(path: Path) -> list[str]:
         return []
     number = read_executive(sections.executive).sol
     cases = read_case_control(sections.case_control, refuse=False).subcases
-    asked = {ANALYSES.get(case.analysis.upper(), number) for case in cases}
-    if not number or asked & _SOLVERS.keys():
-        return []
-    return [_unsupported(path, number, cases)]
+    asked = {asked_by(case, number) for case in cases}
+    if number and not asked & _SOLVERS.keys():
+        return [_unsupported(path, number, cases)]
+    return _heat(path, sections)
+
+
+def _heat(path: Path, sections: Sections) -> list[str]:
+    """That a deck asks for temperatures: APP HEAT, PARAM,HEATSTAT,YES."""
+    for lines, name, pattern in (
+        (sections.executive, "APP HEAT", r"\s*APP\w*[\s,]+HEAT\b"),
+        (sections.bulk, "PARAM,HEATSTAT", r"\s*PARAM[\s,*]+HEATSTAT[\s,]*Y"),
+        (sections.case_control, "PARAM,HEATSTAT", r"\s*PARAM[\s,]+HEATSTAT[\s,]*Y"),
+    ):
+        for line in lines:
+            if re.match(pattern, line.text, re.IGNORECASE):
+                return [
+                    f"{line.file}:{line.number}: {name}: heat transfer is not solved; "
+                    "expected statics under given temperatures, TEMPERATURE(LOAD) "
+                    "with TEMP or TEMPD"
+                ]
+    return []
 
 
 def _unsupported(path: Path, number: int, cases: Sequence[Subcase]) -> str:
@@ -144,7 +162,7 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     for subcase in split_subcases(deck.case_control)[0]:
         if subcase.analysis.upper() in _NOT_RUN:
             continue  # said by `_say_what_is_not_run`
-        number = ANALYSES.get(subcase.analysis.upper(), deck.sol)
+        number = asked_by(subcase, deck.sol)
         if number not in _SOLVERS:
             raise InputError(_unsupported(deck.path, number, deck.case_control))
         work.setdefault(number, []).append(subcase)

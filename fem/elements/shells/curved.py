@@ -59,7 +59,7 @@ from fem.elements.shells.quadratic_surface import (
 )
 from fem.elements.shells.shell import Shell, section_flexibility
 from fem.elements.shells.shell_preload import across, add_turning
-from fem.properties.shell_section import ShellSection
+from fem.properties.shell_section import ShellSection, bending_along
 from fem.properties.shells import sections
 
 _RIGID_SHEAR = 1e-5  # of area / D: flexibility of plates without MID3, as good as none
@@ -385,11 +385,32 @@ class CurvedShell(Shell):
         size = np.repeat(self.extent, len(p))
         least = _RIGID_SHEAR * size / np.where(plate, np.einsum("eii->e", bending), 1.0)
         flexible = section.shear_flexibility + least[:, None, None] * np.eye(2)
+        flexible[plate] += self._residual_flexibility(p, section)[plate]
         matrix = np.zeros((len(plate), 8, 8))
         matrix[:, :3, :3], matrix[:, 3:6, 3:6] = section.membrane, section.bending
         matrix[:, :3, 3:6] = matrix[:, 3:6, :3] = section.coupling
         matrix[plate, 6:, 6:] = np.linalg.inv(flexible[plate])
         return matrix.reshape(len(self.id), len(p), 8, 8)
+
+    def _residual_flexibility(self, p: Float64, section: ShellSection) -> Float64:
+        """(e q, 2, 2) of edges without mid-sides, as of CQUAD4 and CTRIA3.
+
+        Rotations are linear along such an edge l: the bending that varies along it
+        counts as shear, l l^T / (24 D_l) (`shell_shear`). Elements that few corners
+        hold would lock without.
+        """
+        count = self.surface.corners
+        at = self.base(p)
+        total = np.zeros((*at.normal.shape[:2], 2, 2))
+        for k in sorted(self.surface.straight):
+            edge = self.reference[:, (k + 1) % count] - self.reference[:, k]
+            local = np.einsum("eqai,ei->eqa", at.axes, edge).reshape(-1, 1, 2)
+            square = (local**2).sum(axis=2)
+            along = bending_along(section, local / np.sqrt(square)[..., None])
+            share = 1.0 / np.where(along > 0.0, 24.0 * along, np.inf)
+            own = share[..., None] * local[:, 0, :, None] * local[:, :1]
+            total += own.reshape(total.shape)
+        return total.reshape(-1, 2, 2)
 
     def drilling(self) -> Float64:
         """(e, n, 6 n) rotation about the normal less that of the membrane, per grid."""

@@ -319,3 +319,20 @@ def test_the_material_axis_of_an_isotropic_element_may_be_its_normal(model, card
     laminate = "PCOMP,1\n+,2,.02,0.\nMAT8,2,1.+11,1.+10,.3,5.+9,,,7800.\n"
     with pytest.raises(InputError, match="normal to the element"):
         model(flat + system + card + "\n" + laminate)
+
+
+@pytest.mark.parametrize("card", ["CTRIA6", "CQUAD8"])
+def test_few_elements_without_mid_sides_bend_where_shear_is_rigid(model, card):
+    """A square held at three corners, a force at the fourth, MID3 blank.
+
+    As many ties of shear as freedoms would hold it (3e-7); CTRIA3 deflects 4.56e-3, a
+    fine mesh of a square with two clamped edges 5e-3, MSC's CTRIA6 2.84e-3.
+    """
+    square = "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,1.,1.,0.\n"
+    cut = ["1,2,4", "4,3,1"] if card == "CTRIA6" else ["1,2,4,3"]
+    shells = "".join(f"{card},{k + 1},1,{ids}\n" for k, ids in enumerate(cut))
+    section = "PSHELL,1,1,.05,1\nMAT1,1,1.+7,,.25\nPARAM,K6ROT,0.\n"
+    stiffness = model(square + shells + section).matrices.stiffness.toarray()
+    free = stiffness[20:23, 20:23]
+    deflection = np.linalg.solve(free, [2.0, 0.0, 0.0])[0]
+    assert 3e-3 < deflection < 6e-3

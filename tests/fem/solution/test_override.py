@@ -7,6 +7,7 @@ import pytest
 
 from fem.cli import _status
 from fem.deck.reader import read_deck
+from fem.solution import solution_problems
 from fem.solution.override import as_solution
 
 BULK = """
@@ -98,3 +99,34 @@ def test_only_solutions_that_are_there(
 ) -> None:
     assert _status([str(deck(tmp_path, "144", TRIM)), "--sol", "106"]) == 2
     assert "--sol: found 106, expected 101, 103, 105" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("number", [106, 401, 402])
+def test_statics_of_a_nonlinear_solution_are_no_linear_ones(tmp_path, number):
+    """ANALYSIS names a step there; linear results would pass for those of the step."""
+    path = tmp_path / "deck.bdf"
+    path.write_text(
+        f"SOL {number}\nCEND\nSUBCASE 1\n ANALYSIS = STATICS\n LOAD = 1\nBEGIN BULK\n"
+        "GRID,1,,0.,0.,0.,,123456\nENDDATA\n"
+    )
+    (problem,) = solution_problems(path)
+    assert f"SOL {number} is not supported" in problem
+    assert "--sol 101 solves subcase 1 as ANALYSIS says" in problem
+
+
+@pytest.mark.parametrize(
+    ("executive", "case", "bulk", "line"),
+    [("APP HEAT\n", "", "", 2), ("", "", "PARAM,HEATSTAT,YES\n", 5),
+     ("", "PARAM,HEATSTAT,YES\n", "", 3)],
+)  # fmt: skip
+def test_heat_transfer_is_named_before_what_it_lacks(
+    tmp_path, executive, case, bulk, line
+):
+    path = tmp_path / "deck.bdf"
+    path.write_text(
+        f"SOL 101\n{executive}CEND\n{case}LOAD = 1\nBEGIN BULK\n{bulk}"
+        "GRID,1,,0.,0.,0.\nQVOL,1,5.,,1\nENDDATA\n"
+    )
+    (problem,) = solution_problems(path)
+    assert f"deck.bdf:{line}: " in problem
+    assert "heat transfer is not solved" in problem
