@@ -9,8 +9,9 @@ import numpy as np
 from benchmarks.fuzz.mutations import mutate_bytes
 from benchmarks.fuzz.outcome import Outcome
 from fem.errors import InputError
-from fem.files.matrices import NamedMatrix, read_matrices, write_dmig, write_op4
-from fem.files.matrices.nastran_h5 import write_h5
+from fem.files.matrices import read_matrices, write_dmig, write_op4
+from fem.matrix_files.named import NamedMatrix
+from fem.matrix_files.nastran_h5 import write_h5
 
 
 def seeds(folder: Path) -> list[Path]:

@@ -40,6 +40,7 @@ from drake_landing.case.section import Section, number
 from drake_landing.case.steady import Steady
 from drake_landing.files import relative_to_case
 from drake_landing.gears.data import AnyGear
+from drake_landing.integrators import DEFAULT, Integrator
 from drake_landing.parametric import registered
 from fem.deck.source import include_reach
 from fem.errors import nearest
@@ -305,9 +306,9 @@ class Simulation(Section):
         "swing of the airframe brings no extreme of loads, accelerations, section "
         "loads or stresses any more, at most 5 s",
     )
-    integrator: Literal[
-        "runge_kutta3", "runge_kutta5", "bogacki_shampine3", "radau3"
-    ] = Field(default="runge_kutta3", description="Drake's integration scheme")
+    integrator: Integrator = Field(
+        default=DEFAULT, description="Drake's integration scheme"
+    )
     accuracy: float = number(
         "error control of the integrator; 1e-3 keeps peak loads within 0.1 %",
         "in units of the state",

@@ -25,6 +25,7 @@ from drake_landing.gears.bodies import AddLandingGear
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.mounted import each_of
 from drake_landing.gears.systems import AddGearSystems
+from drake_landing.integrators import DEFAULT
 from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_law import ShockAbsorberTunables
@@ -122,7 +123,7 @@ class DropRig:
         """
         simulator = Simulator_[float](self.diagram)
         config = SimulatorConfig(
-            integration_scheme="runge_kutta3",
+            integration_scheme=DEFAULT,
             accuracy=accuracy,
             max_step_size=5e-3,
             use_error_control=True,
@@ -166,7 +167,7 @@ class DropRig:
         simulator = Simulator_[self.scalar](self.diagram)
         context = simulator.get_mutable_context()
         self.set_drop(context, sink_rate=sink_rate, speed=speed, **tunables)
-        integrator = ResetIntegratorFromFlags(simulator, "runge_kutta3", step)
+        integrator = ResetIntegratorFromFlags(simulator, DEFAULT, step)
         integrator.set_fixed_step_mode(True)
         force = self.strut.GetOutputPort("force")
         own = self.strut.GetMyContextFromRoot(context)

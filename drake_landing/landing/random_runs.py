@@ -17,6 +17,7 @@ from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorC
 from pydrake.systems.framework import Context, EventStatus
 
 from drake_landing.case.scenario import Scenario
+from drake_landing.integrators import DEFAULT
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.start import set_scenario_state
 from systems.shock_absorber.strut_law import ShockAbsorberTunables
@@ -108,7 +109,7 @@ def simulator_factory(
         drawn = type(scenario).model_validate(given)
         simulator = Simulator(landing.diagram)
         config = SimulatorConfig(
-            integration_scheme="runge_kutta3",
+            integration_scheme=DEFAULT,
             accuracy=accuracy,
             max_step_size=max_step,
             use_error_control=True,

@@ -18,6 +18,7 @@ from drake_landing.case.bushing import Bushing
 from drake_landing.case.schema import Scenario, Simulation
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.mounted import systems_of
+from drake_landing.integrators import IMPLICIT
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import distinct_instants
 from drake_landing.landing.history import (
@@ -108,7 +109,7 @@ def fast_mode_notices(body: ModalBody, simulation: Simulation) -> tuple[str, ...
             "their flexibility and damping alone (simulation.slow_modes_above)",
         )
     rate = fastest_rate(body)
-    if rate < _FAST or simulation.integrator == "radau3":
+    if rate < _FAST or simulation.integrator == IMPLICIT:
         return ()
     return (
         f"the fastest of {body.n} modes, {body.frequency[-1]:.0f} Hz, moves at "
@@ -158,7 +159,7 @@ def fly(
         raise LandingError(
             f"the landing simulation stopped at {context.get_time():.4f} s of "
             f"{_end(simulation):g} s: {error}; a larger simulation.accuracy, fewer "
-            "modes or the integrator radau3 may help"
+            f"modes or the integrator {IMPLICIT} may help"
         ) from None
     integrator = simulator.get_integrator()
     figures = {

@@ -15,6 +15,7 @@ from pydrake.systems.framework import Context
 
 from drake_landing.case.scenario import Scenario
 from drake_landing.gears.data import LandingGear
+from drake_landing.integrators import DEFAULT
 from drake_landing.landing.audit import Audit, Signals, audit, gear_loads
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
@@ -108,7 +109,7 @@ def try_scenario(
     landing = make_scenario_diagram(body, gears, scenario)
     simulator = Simulator(landing.diagram)
     config = SimulatorConfig(
-        integration_scheme="runge_kutta3", accuracy=accuracy, max_step_size=max_step
+        integration_scheme=DEFAULT, accuracy=accuracy, max_step_size=max_step
     )
     ApplySimulatorConfig(config, simulator)
     context = simulator.get_mutable_context()

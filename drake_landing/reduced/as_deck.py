@@ -18,7 +18,7 @@ from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.files.atomic import write_aside
 from fem.files.deck_writer import DeckText, Section
-from fem.files.matrices import NamedMatrix
+from fem.matrix_files.named import NamedMatrix
 
 _MPC = 1
 

@@ -18,7 +18,8 @@ import pandas as pd
 
 from drake_landing.reduced.model import ReducedModel
 from fem.errors import InputError, nearest
-from fem.files.matrices import NamedMatrix, read_matrices
+from fem.files.matrices import read_matrices
+from fem.matrix_files.named import NamedMatrix
 
 Float64 = npt.NDArray[np.float64]
 

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from fem.files.matrices import NamedMatrix
+from fem.matrix_files.named import NamedMatrix
 
 Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]

@@ -13,7 +13,7 @@ from drake_landing.reduced.model import ReducedModel
 from fem.files.atomic import write_aside
 from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.matrices import write_dmig, write_op4
-from fem.files.matrices.nastran_h5 import write_h5
+from fem.matrix_files.nastran_h5 import write_h5
 
 PAIRED = 0.5  # MAC from which two modes are the same
 _FILES = ("reduced.h5", "reduced.pch", "reduced.op4", "grids.csv", "report.txt")

@@ -1,7 +1,5 @@
 """Names of case control commands, and what becomes of each."""
 
-from difflib import get_close_matches
-
 QUANTITIES = {
     "DISPLACEMENT": "DISPLACEMENT",
     "VECTOR": "DISPLACEMENT",
@@ -110,7 +108,7 @@ KNOWN: frozenset[str] = frozenset(
     )
 )
 _ENOUGH = 4  # letters by which Nastran tells commands apart
-_NEAR = 0.75  # LAOD is as near to LOAD
+NEAR = 0.75  # how alike a word must be to be taken for one: LAOD and LOAD are so
 
 
 def canonical(word: str) -> str:
@@ -128,9 +126,3 @@ def canonical(word: str) -> str:
             name for name in KNOWN if len(name) > _ENOUGH and name.startswith(beginning)
         ]
     return found[0] if len(found) == 1 else ""
-
-
-def misspelt(word: str) -> str:
-    """The clause "; did you mean 'LOAD'?" where a word looks like a selection."""
-    matches = get_close_matches(word, SELECTIONS, n=1, cutoff=_NEAR)
-    return f"; did you mean '{matches[0]}'?" if matches else ""

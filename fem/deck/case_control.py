@@ -11,6 +11,7 @@ from fem.deck import case_command_names as commands
 from fem.deck.case_sets import Selection, SetReader, number
 from fem.deck.source import Line
 from fem.deck.values import Malformed, real
+from fem.errors import nearest
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -211,7 +212,9 @@ class _Reader:
             self.request(command)
         elif name in commands.KNOWN:
             self.passed_over[name] = None
-        elif self.refuse and (near := commands.misspelt(name)):
+        elif self.refuse and (
+            near := nearest(name, commands.SELECTIONS, commands.NEAR)
+        ):
             raise ValueError(f"{name} is no case control command{near}")
         else:
             self.unknown[name] = None

@@ -23,7 +23,8 @@ from fem.deck.deck import Deck
 from fem.deck.executive import Executive
 from fem.deck.source import found_file
 from fem.errors import InputError
-from fem.output4 import NamedMatrix, read_output4
+from fem.matrix_files.named import NamedMatrix
+from fem.matrix_files.output4 import read_output4
 
 # Kind of matrix -> its names, DMIG and OUTPUT4.
 _NAMES = {
@@ -110,7 +111,7 @@ def _matrices(
             f"UNIT = {unit}; assigned: {known}"
         )
     path = found_file(files[unit], Path(deck.path))
-    return {name.upper(): m for name, m in read_output4(path).items()}, path.name
+    return {m.name.upper(): m for m in read_output4(path)}, path.name
 
 
 def _as_dmig(

@@ -5,7 +5,8 @@ over the lengths or areas of their elements. It is added to what the properties 
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Protocol, TypeVar, runtime_checkable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar, cast, runtime_checkable
 
 import numpy as np
 import pandas as pd
@@ -41,6 +42,17 @@ class TakesNonstructuralMass(Protocol):
     def with_nonstructural_mass(
         self, per_extent: Float64
     ) -> "TakesNonstructuralMass": ...
+
+
+class MassInSection:
+    """A block whose section has the nonstructural mass per length, `nsm` (e,)."""
+
+    section: Any
+
+    def with_nonstructural_mass(self, per_extent: Float64) -> Self:
+        """The same elements with additional mass per length (e,)."""
+        section = replace(self.section, nsm=self.section.nsm + per_extent)
+        return cast(Self, replace(cast(Any, self), section=section))
 
 
 # Spellings of one property.

@@ -6,7 +6,7 @@ bending moments M1a = -M_z and M2a = M_y; at end B M1b = M_z and M2b = -M_y. She
 axial force and torque are those of end A (they change along a bar under PLOAD1).
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -24,6 +24,7 @@ from fem.elements.lines.line_geometry import congruence
 from fem.elements.lines.line_preload import over, shear_ratio
 from fem.elements.lines.orientation import place_lines
 from fem.elements.lines.pins import pin_flags
+from fem.elements.nonstructural_mass import MassInSection
 from fem.geometry.points import Points
 from fem.properties.materials import Isotropic, isotropic
 
@@ -58,17 +59,12 @@ class BarSection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Bar(LineBlock):
+class Bar(MassInSection, LineBlock):
     """All CBAR elements; 12 freedoms, basic axes."""
 
     section: BarSection
 
     property_card = "PBAR"
-
-    def with_nonstructural_mass(self, per_length: Float64) -> "Bar":
-        """The same bars with additional mass per length (e,)."""
-        section = replace(self.section, nsm=self.section.nsm + per_length)
-        return replace(self, section=section)
 
     def _stiffness_at_ends(self) -> Float64:
         return bar_stiffness(self.geometry.length, self.section, self.material)

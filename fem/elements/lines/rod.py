@@ -1,6 +1,6 @@
 """CROD, CONROD and CTUBE: axial and torsional springs along a line."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -11,6 +11,7 @@ from fem.deck.records.lines import ROD
 from fem.deck.references import column, refer, table, where
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
+from fem.elements.nonstructural_mass import MassInSection
 from fem.elements.preload import tension_across
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -37,7 +38,7 @@ class RodSection:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Rod(DenseBlock):
+class Rod(MassInSection, DenseBlock):
     """All CROD, CONROD or CTUBE elements; 12 freedoms, basic axes.
 
     Attributes:
@@ -56,11 +57,6 @@ class Rod(DenseBlock):
     def extent(self) -> Float64:
         """(e,) length."""
         return self.length
-
-    def with_nonstructural_mass(self, per_length: Float64) -> "Rod":
-        """The same rods with additional mass per length (e,)."""
-        section = replace(self.section, nsm=self.section.nsm + per_length)
-        return replace(self, section=section)
 
     def stiffness(self) -> Float64:
         axial = self.material.e * self.section.a / self.length

@@ -6,7 +6,8 @@ from numpy.testing import assert_allclose
 
 from drake_landing.reduced.legs import with_read_legs
 from fem.errors import InputError
-from fem.files.matrices import NamedMatrix, write_dmig
+from fem.files.matrices import write_dmig
+from fem.matrix_files.named import NamedMatrix
 from tests.drake_landing.gears.test_legs import Rig, cantilever
 from tests.drake_landing.landing_gears import aircraft_gears, changed
 

@@ -8,7 +8,8 @@ import pytest
 
 from fem.deck.reader import read_deck
 from fem.errors import InputError
-from fem.files.matrices import NamedMatrix, write_dmig, write_op4
+from fem.files.matrices import write_dmig, write_op4
+from fem.matrix_files.named import NamedMatrix
 from fem.model.structure import Structure
 from fem.solution.run import run_deck
 

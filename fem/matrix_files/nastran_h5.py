@@ -13,8 +13,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.errors import InputError
-from fem.output4.checks import LARGEST, check_size, checked
-from fem.output4.named import NamedMatrix
+from fem.matrix_files.checks import LARGEST, check_size, checked
+from fem.matrix_files.named import NamedMatrix
 
 GROUP = "NASTRAN/RESULT/MATRIX/GENERAL"
 _IDENTITY = ("FORM", "ROW", "COLUMN", "NON_ZERO", "COLUMN_POS", "DATA_POS")

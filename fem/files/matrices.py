@@ -1,15 +1,19 @@
-"""Matrix files by what they contain, not by what they are called."""
+"""Files of matrices by what they contain, not by what they are called.
+
+Those that need no deck are those of `fem.matrix_files`; DMIG are cards of one.
+"""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 from fem.errors import InputError
 from fem.files.atomic import write_aside
-from fem.files.matrices.dmig import read_punch, write_punch
-from fem.files.matrices.nastran_h5 import read_h5
-from fem.output4.named import NamedMatrix
-from fem.output4.op4_binary import byte_order, read_binary, write_binary
-from fem.output4.op4_text import read_text, write_text
+from fem.files.dmig_punch import read_punch, write_punch
+from fem.matrix_files.named import NamedMatrix
+from fem.matrix_files.nastran_h5 import read_h5
+from fem.matrix_files.op4_binary import byte_order, write_binary
+from fem.matrix_files.op4_text import write_text
+from fem.matrix_files.output4 import read_output4
 
 _HDF5 = b"\x89HDF"
 
@@ -22,19 +26,14 @@ def read_matrices(path: Path) -> dict[str, NamedMatrix]:
     """
     if not path.is_file():
         raise InputError(f"{path}: no such file")
-    size = path.stat().st_size
     with path.open("rb") as file:
         start = file.read(4096)
     if start.startswith(_HDF5):
         found = read_h5(path)
-    elif byte_order(start):
-        with path.open("rb") as file:
-            found = read_binary(file, str(path), size)
-    elif b"DMIG" in start.upper():
+    elif b"DMIG" in start.upper() and not byte_order(start):
         found = read_punch(path)
     else:
-        with path.open(encoding="latin-1") as file:
-            found = read_text(file, str(path), size)
+        found = read_output4(path)
     names = [matrix.name for matrix in found]
     if not found:
         raise InputError(f"{path}: no matrix; expected DMIG, OUTPUT4 or HDF5")

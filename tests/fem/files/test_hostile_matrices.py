@@ -12,7 +12,7 @@ from benchmarks.fuzz.matrices import damaged, outcome, seeds
 from benchmarks.fuzz.outcome import Outcome
 from fem.errors import InputError
 from fem.files.matrices import read_matrices
-from fem.files.matrices.nastran_h5 import GROUP
+from fem.matrix_files.nastran_h5 import GROUP
 
 
 @pytest.fixture

@@ -13,8 +13,9 @@ from hypothesis.extra.numpy import array_shapes, arrays
 from pyNastran.op4.op4 import OP4
 
 from fem.errors import InputError
-from fem.files.matrices import NamedMatrix, read_matrices, write_dmig, write_op4
-from fem.files.matrices.nastran_h5 import write_h5
+from fem.files.matrices import read_matrices, write_dmig, write_op4
+from fem.matrix_files.named import NamedMatrix
+from fem.matrix_files.nastran_h5 import write_h5
 
 NUMBERS = st.floats(-1e12, 1e12).map(lambda x: 0.0 if abs(x) < 1e-30 else x)
 ANY = arrays(float, array_shapes(min_dims=2, max_dims=2, max_side=7), elements=NUMBERS)

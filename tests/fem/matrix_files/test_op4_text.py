@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from fem.errors import InputError
-from fem.files.matrices import NamedMatrix, read_matrices, write_op4
+from fem.files.matrices import read_matrices, write_op4
+from fem.matrix_files.named import NamedMatrix
 
 END = f"{3:8d}{1:8d}{1:8d}\n 1.000000000E+00\n"
 

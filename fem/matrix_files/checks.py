@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.arrays import Int64
-from fem.output4.named import SYMMETRIC, NamedMatrix
+from fem.matrix_files.named import SYMMETRIC, NamedMatrix
 
 LARGEST = 2_000_000_000  # bytes of a matrix
 _SMALL = 64_000_000  # bytes that no file needs to earn

@@ -13,8 +13,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.errors import InputError
-from fem.output4.checks import check_size, checked
-from fem.output4.named import NamedMatrix
+from fem.matrix_files.checks import check_size, checked
+from fem.matrix_files.named import NamedMatrix
 
 _STRING = 65536
 _HEADERS = {24: 4, 48: 8}  # bytes of the header's record -> bytes of a word

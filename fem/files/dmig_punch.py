@@ -20,8 +20,8 @@ from fem.deck.lexer import RawCard, read_cards
 from fem.deck.source import read_source
 from fem.deck.values import Malformed
 from fem.errors import InputError
-from fem.output4.checks import check_size, checked
-from fem.output4.named import RECTANGULAR, SYMMETRIC, NamedMatrix
+from fem.matrix_files.checks import check_size, checked
+from fem.matrix_files.named import RECTANGULAR, SYMMETRIC, NamedMatrix
 
 _RECTANGULAR_HEADER = 9
 _FORMS = (1, 2, SYMMETRIC, _RECTANGULAR_HEADER)

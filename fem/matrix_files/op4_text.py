@@ -25,8 +25,8 @@ import numpy.typing as npt
 
 from fem.arrays import Float64
 from fem.errors import InputError
-from fem.output4.checks import check_size, checked
-from fem.output4.named import NamedMatrix
+from fem.matrix_files.checks import check_size, checked
+from fem.matrix_files.named import NamedMatrix
 
 _FORMAT = re.compile(r"\(?(?:1P)?,?\s*(\d+)[ED](\d+)(?:\.\d+)?", re.IGNORECASE)
 _SPLIT = re.compile(r"\s*(-?\d+)\s+(-?\d+)\s+(\d+)\s+(\d)\s*([A-Za-z]\w{0,7})\s*(.*)")
