@@ -60,7 +60,7 @@ def attempts(
             for attempt in _of_child(kind, first, last - first, Path(folder)):
                 first = attempt.seed + 1
                 if attempt.outcome is Outcome.bad:
-                    _keep(Path(folder), kept / f"{kind}_{attempt.seed}")
+                    _keep(Path(folder), attempt.seed, kept / f"{kind}_{attempt.seed}")
                 yield attempt
                 if time.monotonic() >= end:
                     break
@@ -102,9 +102,9 @@ def _of_child(kind: str, first: int, count: int, folder: Path) -> Iterator[Attem
             child.kill()
 
 
-def _keep(folder: Path, place: Path) -> None:
+def _keep(folder: Path, seed: int, place: Path) -> None:
     place.mkdir(parents=True, exist_ok=True)
-    for path in folder.glob("tried*"):
+    for path in folder.glob(f"tried_{seed}_*"):
         if path.is_file() and not path.is_symlink():
             (place / path.name).write_bytes(path.read_bytes()[:10_000_000])
 
@@ -127,7 +127,8 @@ def _child(kind: str, first: int, count: int, folder: Path) -> None:
     for seed in range(first, first + count):
         rng = random.Random(f"{kind}{seed}")
         source = rng.choice(seeds)
-        place = source.with_name(f"tried_{source.name}")
+        # The child goes on while the parent keeps what was bad: names of their own.
+        place = source.with_name(f"tried_{seed}_{source.name}")
         print(json.dumps({"seed": seed}), file=tell)
         try:
             chosen.damage(source, rng, place)

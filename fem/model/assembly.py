@@ -62,7 +62,7 @@ def assemble(
     stiffness, structural = _Sum(points.size), _Sum(points.size)
     mass, damping = _Sum(points.size), _Sum(points.size)
     for block in blocks:
-        k = _finite(block, block.stiffness(), "stiffness")
+        k = _finite(block, _stiffness(block), "stiffness")
         if k is not None:
             stiffness.add(_triplets(points, block, k))
             ge = block.structural_damping()
@@ -111,6 +111,41 @@ def assemble_one(
     return total.symmetric()
 
 
+def _stiffness(block: ElementBlock) -> Float64 | None:
+    """The stiffness of a block.
+
+    Raises:
+        InputError: elements whose shape or property allows none.
+    """
+    try:
+        return block.stiffness()
+    except np.linalg.LinAlgError:
+        raise InputError(
+            f"{block.card} {_listed(_singular(block))}: no stiffness can be computed, "
+            "its equations are singular; look at its shape, property and material"
+        ) from None
+
+
+def _singular(block: ElementBlock) -> Int64:
+    """Ids of elements without stiffness; of all, where the block cannot be divided."""
+    take, count = getattr(block, "take", None), len(block.id)
+    if take is None or count == 1:
+        return block.id
+    found = []
+    for half in (np.arange(count // 2), np.arange(count // 2, count)):
+        part = take(half)
+        try:
+            part.stiffness()
+        except np.linalg.LinAlgError:
+            found.append(_singular(part))
+    return np.concatenate(found) if found else block.id
+
+
+def _listed(ids: Int64) -> str:
+    more = f", ... ({len(ids)} in all)" if len(ids) > 5 else ""
+    return f"{', '.join(map(str, ids[:5]))}{more}"
+
+
 def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 | None:
     """The matrices of a block (e, n, n) as they are.
 
@@ -123,9 +158,8 @@ def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 |
     usable = np.abs(matrix) < LARGEST  # neither infinite nor NaN
     if not usable.all():
         bad = block.id[~usable.all(axis=(1, 2))]
-        more = f", ... ({len(bad)} in all)" if len(bad) > 5 else ""
         raise InputError(
-            f"{block.card} {', '.join(map(str, bad[:5]))}{more}: the {what} is beyond "
+            f"{block.card} {_listed(bad)}: the {what} is beyond "
             f"what can be computed with ({LARGEST:g}); look at its property, material "
             "and size"
         )
@@ -164,7 +198,11 @@ def turn_columns(matrix: Float64, turn: Float64) -> Float64:
 def _triplets(
     points: Points, block: ElementBlock, matrix: Float64
 ) -> Iterator[tuple[Int64, Int64, Float64]]:
-    """Rows, columns and values of the upper triangle, in pieces."""
+    """Rows, columns and values of the upper triangle, in pieces.
+
+    Both triangles differ by rounding, on slender elements by more of it than rigid
+    motions may meet: what is symmetric of them meets least.
+    """
     n = matrix.shape[1]
     upper_row, upper_column = np.triu_indices(n)
     step = max(1, _PIECE // (n * n))
@@ -172,7 +210,8 @@ def _triplets(
         dof, values = block.dof[start : start + step], matrix[start : start + step]
         if block.frame == "basic":
             values = to_displacement(points, dof, values)
-        values = values[:, upper_row, upper_column]
+        values = values[:, upper_row, upper_column] + values[:, upper_column, upper_row]
+        values *= 0.5
         a, b = dof[:, upper_row], dof[:, upper_column]
         keep = (a >= 0) & (b >= 0) & (values != 0.0)
         a, b, values = a[keep], b[keep], values[keep]

@@ -9,6 +9,7 @@ from fem.elements.dense import DenseBlock
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.model.assembly import assemble
+from fem.model.weight import rigid_modes
 
 FRAME = """
 CORD2R,1,,1.,2.,3.,2.,3.,5.
@@ -197,3 +198,37 @@ def test_impossible_elements_are_refused(model, card, message):
     )
     with pytest.raises(InputError, match=message):
         model(bulk + card)
+
+
+def _brick(far: str) -> str:
+    """A unit cube, and one whose corner 4 lies far away along x."""
+    return f"""\
+GRID,1,,0.,0.,0.
+GRID,2,,1.,0.,0.
+GRID,3,,1.,1.,0.
+GRID,4,,0.,1.,0.
+GRID,5,,0.,0.,1.
+GRID,6,,1.,0.,1.
+GRID,7,,1.,1.,1.
+GRID,8,,0.,1.,1.
+GRID,13,,{far},1.,0.
+CHEXA,1,3,1,2,3,4,5,6,
+,7,8
+CHEXA,6,3,1,2,13,4,5,6,
+,7,8
+PSOLID,3,1
+MAT1,1,7.+10,,.3
+"""
+
+
+def test_rigid_motion_meets_no_force_of_a_slender_solid(model):
+    """Σ K R, a sum of some twenty numbers, is rounding of the largest of K."""
+    built = model(_brick("30."))
+    k = built.matrices.stiffness
+    forces = k @ rigid_modes(built.points, np.zeros(3))[:, :3]
+    assert abs(forces).max() < 100 * np.finfo(float).eps * abs(k).max()
+
+
+def test_elements_without_stiffness_are_named(model):
+    with pytest.raises(InputError, match="CHEXA 6: no stiffness can be computed"):
+        _ = model(_brick("4.+14")).matrices
