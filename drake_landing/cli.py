@@ -235,7 +235,7 @@ def model(
             raise InputError("model from-cpacs: give a CPACS file")
         from drake_landing.reference.d150.cpacs import write_cpacs_model
 
-        print(write_cpacs_model(source, cpacs_level, out, topology).story(out))
+        show_lines(write_cpacs_model(source, cpacs_level, out, topology).story(out))
         return
     if source is not None:
         raise InputError(f"model {level}: found {source}; only from-cpacs takes a file")
@@ -362,7 +362,8 @@ def reduce(
     folder = claim(out or Path("out", "reduce", deck.stem), f"reduce {deck.name}")
     options = {"highest_hz": highest, "count": count, "compare_hz": compare}
     with include_reach(include_path or [], trust=trust):
-        print(reduce_deck(deck, folder, basis=basis, interface=interface, **options))
+        done = reduce_deck(deck, folder, basis=basis, interface=interface, **options)
+    show_lines(done)
 
 
 @app.command("show-run")
@@ -377,7 +378,7 @@ def show_run(
     lines = made.lines()
     width = max(len(what) for what, _ in lines)
     for what, value in lines:
-        print(f"{what:<{width}}  {value}")
+        show_lines(f"{what:<{width}}  {value}")
     if changes := made.changes(folder):
         raise InputError(changes)
     print(f"\nverified: {len(made.files)} files and the gear data are those of the run")

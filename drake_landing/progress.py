@@ -12,6 +12,8 @@ from typing import Protocol, TextIO
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+from fem.errors import visible
+
 _PLAIN_INTERVAL = 5.0  # s between lines of one stage
 
 
@@ -47,7 +49,8 @@ class PlainLines:
     def stage(self, text: str) -> None:
         """One line with the elapsed time."""
         self._last = time.monotonic()
-        print(f"[{self._last - self._start:6.1f} s] {text}", file=self._stream)
+        line = f"[{self._last - self._start:6.1f} s] {visible(text)}"
+        print(line, file=self._stream)
         self._stream.flush()
 
     def share(self, done: float, text: str = "") -> None:

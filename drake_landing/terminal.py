@@ -5,11 +5,14 @@ import sys
 from shutil import get_terminal_size
 from textwrap import wrap
 
+from fem.errors import visible
+
 _VALUE = re.compile(r"\s*\S+(?: \S+)*\s{2,}(?=\S)")  # what stands before a value
 
 
 def show(text: str) -> None:
     """Prints lines; on a terminal those that are too long go on below their values."""
+    text = visible(text)
     width = get_terminal_size().columns if sys.stdout.isatty() else None
     print(fitted(text, width) if width else text)
 

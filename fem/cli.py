@@ -13,6 +13,8 @@ import typer
 from rich.console import Console as Terminal
 from rich.progress import Progress, TextColumn
 
+from fem.errors import visible
+
 app = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
 
 
@@ -26,7 +28,7 @@ class RichConsole:
     def say(self, text: str) -> None:
         """Print lines as they are."""
         self.close()
-        self._terminal.print(text, markup=False, soft_wrap=True)
+        self._terminal.print(visible(text), markup=False, soft_wrap=True)
 
     def progress(self, task: str) -> Callable[[int, int], None]:
         """A bar with the remaining time; plain lines where there is no terminal."""

@@ -36,9 +36,20 @@ def _printable(text: str) -> str:
     """Without what a terminal would take for a command, and not without end."""
     if len(text) > _LONGEST:
         text = f"{text[:_LONGEST]}... ({len(text):,} characters)"
+    return visible(text)
+
+
+def visible(text: str) -> str:
+    """For a terminal: characters that would move, color or erase its lines as \\x1b.
+
+    Line ends and tabs stay; what turns the direction of text does not.
+    """
     if text.isprintable():
         return text
-    return "".join(c if c.isprintable() or c == "\n" else "?" for c in text)
+    return "".join(
+        c if c.isprintable() or c in "\n\t\u00a0\u3000" else ascii(c)[1:-1]
+        for c in text
+    )
 
 
 def nearest(name: str, known: Sequence[str], cutoff: float = 0.6) -> str:

@@ -16,7 +16,7 @@ from contextlib import contextmanager
 from types import FrameType
 from typing import Any, NoReturn
 
-from fem.errors import InputError
+from fem.errors import InputError, visible
 
 _SIGNALS = tuple(
     getattr(signal, name)
@@ -103,7 +103,7 @@ def _failure(error: BaseException) -> int:
 
 
 def _say(text: str, status: int) -> int:
-    print(text, file=sys.stderr)
+    print(visible(text), file=sys.stderr)
     return status
 
 

@@ -149,7 +149,7 @@ class _DropLaw:
             wheels=len(gear.wheel_names),
             share=float(share),
             sprung=float(share + gear.sprung_mass),
-            unsprung=float(gear.mass - gear.sprung_mass),
+            unsprung=float(gear.unsprung_mass),
             spin=float(gear.wheel.spin_inertia),
             speed=float(speed),
             friction=float(friction),

@@ -123,6 +123,12 @@ def gear_remarks(
         p_AG: (3,) its centre of gravity in A, m.
     """
     remarks = _direction_remarks(gears, float(np.asarray(p_AG)[0]))
+    remarks += [
+        f"gears.{gear.name}: found {gear.mass:,.4g} kg, more than the airframe, "
+        f"{mass:,.4g} kg: are its masses in kg?"
+        for gear in gears
+        if gear.mass > mass
+    ]
     loads = static_loads(gears, mass, p_AG)
     if loads is None:
         return tuple(remarks)
@@ -175,7 +181,7 @@ def static_loads(
 
 def _gas_remarks(gear: LandingGear, load: float) -> list[str]:
     parameters = shock_absorber_parameters(gear.shock_absorber)
-    below = (gear.mass - gear.sprung_mass) * STANDARD_GRAVITY
+    below = gear.unsprung_mass * STANDARD_GRAVITY
     wanted = (load - below) * _strut_share(gear)
     law, stroke = StrutLaw(parameters), parameters.max_stroke
     full = law.gas_force(

@@ -116,7 +116,9 @@ def _with_includes(lines: list[Line], source: Path, path: Path) -> Iterator[str]
         copy = folder / str(number) / Path(file).name
         with written_aside(copy) as part:
             part.write_text("".join(f"{x.text}\n" for x in piece), encoding="utf-8")
-        yield f"INCLUDE '{copy.relative_to(path.parent).as_posix()}'"
+        name = copy.relative_to(path.parent).as_posix()
+        quote = '"' if "'" in name else "'"
+        yield f"INCLUDE {quote}{name}{quote}"
 
 
 def _factor(given: MassCase, number: int) -> float:

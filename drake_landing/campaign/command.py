@@ -59,7 +59,7 @@ def campaign_command(
     if compare is not None:
         for name, table in compare_campaigns(compare, folder).items():
             write_csv(folder / f"compared_{name}.csv", table.reset_index())
-            print(f"\n{name}, before and after:\n{table.head(10).to_string()}")
+            show(f"\n{name}, before and after:\n{table.head(10).to_string()}")
     print(f"\npage: {folder / 'campaign.html'}")
     return len(result.failed)
 

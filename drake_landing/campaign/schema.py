@@ -27,6 +27,7 @@ from pydantic import (
 
 from drake_landing.campaign.axes import Axis, Distribution, combined_values
 from drake_landing.case.field_lines import Places
+from drake_landing.case.labels import OneLine
 from drake_landing.case.section import Section, number
 
 MOST = 200_000  # cases; more would be described for an hour before the first flies
@@ -40,7 +41,7 @@ class Table(Section):
     columns: dict[str, str] = Field(
         min_length=1, description="column of the file -> field of the case"
     )
-    source: str = Field(description="where the rows come from")
+    source: OneLine = Field(description="where the rows come from")
 
     @field_validator("file", mode="after")
     @classmethod
@@ -84,7 +85,7 @@ class Fatigue(Section):
     reference_stress: float = number("stress range at one cycle to failure", "Pa", gt=0)
     slope: float = number("of the S-N curve, log N over log range", "1", gt=0, le=50)
     endurance: float = number("ranges below do no damage", "Pa", 0.0, ge=0)
-    source: str = Field(description="where the curve comes from")
+    source: OneLine = Field(description="where the curve comes from")
 
 
 class Campaign(Section):
@@ -94,7 +95,7 @@ class Campaign(Section):
         pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,79}$",
         description="names the campaign and its folder: letters, digits, . _ -",
     )
-    title: str = Field(default="", description="one line for the page")
+    title: OneLine = Field(default="", description="one line for the page")
     base: Path = Field(description="case file, relative to the campaign file")
     axes: dict[Annotated[str, Field(pattern=_PATH)], Axis] = Field(
         default={},

@@ -32,7 +32,7 @@ from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.deck_frame import Axes
 from drake_landing.case.design_values import with_design_values
 from drake_landing.case.field_lines import Places
-from drake_landing.case.labels import Label
+from drake_landing.case.labels import Label, OneLine
 from drake_landing.case.mass_cases import MassCase, mass_case_of
 from drake_landing.case.parts import Parts
 from drake_landing.case.scenario import Scenario as Scenario
@@ -119,10 +119,10 @@ class Matrices(Section):
         description="CSV table of the interface grids in the order of the matrices: "
         "id, x, y, z [, components]",
     )
-    stiffness: str = Field(default="KRED", description="name of K")
-    mass: str = Field(default="MRED", description="name of M")
-    damping: str = Field(default="BRED", description="name of B; may be absent")
-    recovery: str = Field(
+    stiffness: OneLine = Field(default="KRED", description="name of K")
+    mass: OneLine = Field(default="MRED", description="name of M")
+    damping: OneLine = Field(default="BRED", description="name of B; may be absent")
+    recovery: OneLine = Field(
         default="RRED",
         description="name of the motion of grids without components",
     )
@@ -142,7 +142,7 @@ class Airframe(Section):
         "reference aircraft, or one that another package registers",
         json_schema_extra={"examples": list(registered())},
     )
-    topology: str | None = Field(
+    topology: OneLine | None = Field(
         default=None,
         description="how the built-in model holds its gears: 1, 2 or distributed, by "
         "default the model's first; for a deck a mere label of the result tables",
@@ -219,7 +219,7 @@ class Airframe(Section):
         "their own",
     )
 
-    mass_cases: dict[str, MassCase] = Field(
+    mass_cases: dict[Label, MassCase] = Field(
         default={},
         description="name -> what a loading of the airframe adds to its point masses, "
         "or takes from them",
@@ -363,7 +363,7 @@ class Case(Section):
         pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,79}$",
         description="names the run and its folder: letters, digits, . _ -",
     )
-    title: str = Field(default="", description="one line for the report")
+    title: OneLine = Field(default="", description="one line for the report")
     airframe: Airframe
     gears: Gears = Field(
         default="d150",

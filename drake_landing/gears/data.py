@@ -221,10 +221,15 @@ class LandingGear(Data):
         return {self.name: self.attachment_node, **further}
 
     @property
+    def unsprung_mass(self) -> float:
+        """Of the parts that move and the wheels, kg."""
+        parts = sum(part.mass for part in self.moving_parts.values())
+        return parts + len(self.wheel_names) * self.wheel.mass
+
+    @property
     def mass(self) -> float:
         """Of the whole gear, kg."""
-        parts = sum(part.mass for part in self.moving_parts.values())
-        return self.sprung_mass + parts + len(self.wheel_names) * self.wheel.mass
+        return self.sprung_mass + self.unsprung_mass
 
 
 def _bodies_or_their_fields(schema: dict[str, Any]) -> None:

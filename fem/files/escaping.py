@@ -2,7 +2,8 @@
 
 Names of a deck or a case reach file names, groups of HDF5, comments of decks, cells
 that a spreadsheet computes, attributes of pages. Each of these has one function here.
-Templates escape on their own; pictures take no text for mathematics (`plots.panels`).
+Templates escape on their own; pictures take no text for mathematics (`plots.panels`);
+terminals get what is `fem.errors.visible`.
 """
 
 import hashlib

@@ -11,7 +11,9 @@ import yaml
 from drake_landing.case.reading import load_case, parse_case
 from drake_landing.files import write_csv
 from drake_landing.process import run as process
+from drake_landing.terminal import show
 from fem.errors import InputError
+from fem.exit_status import exit_status
 from fem.files.escaping import attribute, cell, comment, file_name, group_name
 
 HERE = Path(__file__).parent
@@ -126,6 +128,18 @@ def test_names_that_are_no_line(name):
     assert "\x1b" not in str(caught.value)
 
 
+@pytest.mark.parametrize("text", ["a\nb", "\x1b]0;b\x07", "x" * 1001])
+def test_titles_that_are_no_line(text):
+    case = yaml.safe_load((HERE / "tiny_case.yaml").read_text())
+    case["title"] = text
+    case["airframe"]["mass_cases"] = {text: {"remove": [505]}}
+    with pytest.raises(InputError) as caught:
+        parse_case(yaml.safe_dump(case))
+    fields = [problem.split(": ")[1] for problem in caught.value.problems]
+    assert fields[0].startswith("airframe.mass_cases")
+    assert fields[1] == "title"
+
+
 def test_a_picture_that_fails_costs_the_picture(tmp_path, monkeypatch, out):
     def fail(*_):
         raise RuntimeError("no browser")
@@ -159,6 +173,19 @@ def test_groups_comments_attributes_cells(tmp_path):
     assert comment("a\nENDDATA\rb") == "a ENDDATA b"
     assert attribute('"<') == "&quot;&lt;"
     assert [cell(t) for t in ("=1", "-1", "-x", "nose")] == ["'=1", "-1", "'-x", "nose"]
+
+
+def test_terminals_show_what_would_move_or_color_them(capsys):
+    show("a\tb\x1b[2J\r\nc\u202e\x9b \N{NO-BREAK SPACE}機")
+    assert capsys.readouterr().out == (
+        "a\tb\\x1b[2J\\r\nc\\u202e\\x9b \N{NO-BREAK SPACE}機\n"
+    )
+    assert exit_status(_refuses, "x", ["\x1b[2J"]) == 2
+    assert capsys.readouterr().err == "error: \\x1b[2J: not there\n"
+
+
+def _refuses(args, **_):
+    raise FileNotFoundError(2, "not there", args[0])
 
 
 def test_written_tables_hold_no_formulas(tmp_path):

@@ -209,6 +209,14 @@ def test_odd_loads_at_rest_are_remarked(left, message):
     assert remark.startswith(f"gears.main_left.{message}")
 
 
+def test_a_gear_heavier_than_the_airframe_is_remarked():
+    heavy = changed(LEFT, fitting=LEFT.fitting.model_dump() | {"mass": 1e20})
+    (remark, *_) = _remarks(NOSE, heavy, RIGHT)
+    assert remark.startswith("gears.main_left: found 1e+20 kg, more than the airframe")
+    # Not the difference of two masses: its drop divides by it.
+    assert heavy.unsprung_mass == LEFT.unsprung_mass > 0.0
+
+
 def test_gas_of_a_levered_gear_is_held_against_the_load_on_its_absorber():
     gear = levered_main()
     assert not any("precharge" in r for r in _remarks(NOSE, gear, RIGHT))

@@ -55,9 +55,10 @@ def test_elements_keep_the_names_of_their_files(tmp_path):
     control, bulk = text.split("BEGIN BULK\n")
     lines = bulk.splitlines(keepends=True)
     bars = [line for line in lines if line.startswith("CBAR")]
-    outer = "".join(bars[:2]) + "INCLUDE 'inner.inc'\n" + "".join(bars[4:])
+    inner = "wing's <i>.inc"
+    outer = "".join(bars[:2]) + f'INCLUDE "{inner}"\n' + "".join(bars[4:])
     (tmp_path / "outer.inc").write_text(outer)
-    (tmp_path / "inner.inc").write_text("".join(bars[2:4]))
+    (tmp_path / inner).write_text("".join(bars[2:4]))
     rest = "".join(line for line in lines if line not in bars)
     deck = tmp_path / "main.bdf"
     deck.write_text(f"{control}BEGIN BULK\nINCLUDE 'outer.inc'\n{rest}")
@@ -69,7 +70,7 @@ def test_elements_keep_the_names_of_their_files(tmp_path):
     files = [Path(file).name for file in cards["CBAR"].file]
     plain = aircraft.read(deck).cards["CBAR"]
     assert files == [Path(file).name for file in plain.file]
-    assert files.count("inner.inc") == 2
+    assert files.count(inner) == 2
 
 
 def test_stiffness_is_that_of_the_deck(tmp_path):
