@@ -1,8 +1,10 @@
 """Loads: static load vectors, and dynamic excitation with its time steps."""
 
 from fem.loads.dynamic import (
+    EnforcedMotion,
     Excitation,
     dynamic_excitation,
+    dynamic_motions,
     initial_conditions,
     table_notices,
     time_steps,
@@ -14,8 +16,10 @@ from fem.loads.static import (
 )
 
 __all__ = [
+    "EnforcedMotion",
     "Excitation",
     "dynamic_excitation",
+    "dynamic_motions",
     "enforced_displacements",
     "initial_conditions",
     "static_element_loads",

@@ -58,6 +58,8 @@ def dynamic_excitation(
     points: Points,
     subcase: Subcase,
     mass_gg: sp.spmatrix | sp.sparray | None = None,
+    *,
+    beside_motion: bool = False,
 ) -> Excitation:
     """Excitation that a subcase selects with DLOAD (and LOADSET).
 
@@ -68,6 +70,7 @@ def dynamic_excitation(
         deck, points: the model.
         subcase: what is selected; DLOAD 0 means no load.
         mass_gg: as for `static_load`.
+        beside_motion: leaves out enforced motion, which `dynamic_motions` has.
 
     Raises:
         InputError: enforced motion (TYPE other than LOAD), undefined sets or tables.
@@ -79,6 +82,13 @@ def dynamic_excitation(
     for name in _TLOADS:
         rows = deck.cards[name]
         for _, row in rows[rows["sid"].isin(factors)].iterrows():
+            if beside_motion and row["type"] in MOTIONS:
+                continue
+            if row["type"] != "LOAD":
+                raise InputError(
+                    f"{where(name, row)}: TYPE {row['type']} (enforced motion) is not "
+                    "supported here, expected LOAD"
+                )
             function = _function(deck, name, row)
             spatial = factors[row["sid"]] * pattern_of(
                 deck, points, subcase, name, row, mass_gg
@@ -137,11 +147,6 @@ def load_factors(deck: "Deck", dload: int, names: tuple[str, str]) -> dict[int, 
 
 
 def _function(deck: "Deck", name: str, row: pd.Series) -> TimeFunction:
-    if row["type"] != "LOAD":
-        raise InputError(
-            f"{where(name, row)}: TYPE {row['type']} (enforced motion) is not "
-            "supported, expected LOAD"
-        )
     if name == "TLOAD1":
         return table_function(deck, int(row["tid"]))
     if not row["t2"] > row["t1"]:
@@ -234,6 +239,52 @@ def _shifted(row: pd.Series) -> TimeFunction:
 
 # Kinds of enforced motion: which derivative of the displacement is given.
 MOTIONS = {"DISP": 0, "VELO": 1, "ACCE": 2}
+
+
+@dataclass(frozen=True, kw_only=True)
+class EnforcedMotion:
+    """Motion of constrained freedoms: a pattern times a function or its integrals.
+
+    Attributes:
+        pattern: (size,) displacement frames.
+        function: of time, the derivative of that order.
+        order: 0 displacement, 1 velocity, 2 acceleration.
+        start: displacement and velocity at t = 0 where these follow by integration.
+    """
+
+    pattern: Float64
+    function: TimeFunction
+    order: int
+    start: tuple[float, float]
+
+
+def dynamic_motions(
+    deck: "Deck", points: Points, subcase: Subcase
+) -> list[EnforcedMotion]:
+    """What TLOAD1 and TLOAD2 of TYPE DISP, VELO or ACCE move in a subcase.
+
+    Raises:
+        InputError: no SPCD of EXCITEID, undefined sets or tables.
+    """
+    factors = load_factors(deck, subcase.dload, _TLOADS) if subcase.dload else {}
+    found = []
+    for name in _TLOADS:
+        rows = deck.cards[name]
+        rows = rows[rows["sid"].isin(factors) & rows["type"].isin(list(MOTIONS))]
+        for _, row in rows.iterrows():
+            function = _function(deck, name, row)
+            spatial = motion_of(deck, points, subcase, name, row)
+            spatial = factors[row["sid"]] * spatial
+            for delay, chosen in _split(deck, points, row, spatial):
+                found.append(
+                    EnforcedMotion(
+                        pattern=np.where(chosen, spatial, 0.0),
+                        function=Delayed(function, delay) if delay else function,
+                        order=MOTIONS[row["type"]],
+                        start=(float(row["us0"]), float(row["vs0"])),
+                    )
+                )
+    return found
 
 
 def motion_of(

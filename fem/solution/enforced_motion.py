@@ -52,11 +52,7 @@ class BaseMotion:
         solver: SolverName | None = None,
     ) -> "BaseMotion":
         """The same with the static response of the free freedoms in Ψ."""
-        force = reduced.load(sp.csr_matrix(model.matrices.stiffness @ self.shape))
-        along = static_response(
-            reduced.stiffness, reduced.mass, modes, -force.toarray(), solver=solver
-        )
-        shape = sp.csr_matrix(self.shape + reduced.expand @ sp.csr_matrix(along))
+        shape = carried_shape(self.shape, model, reduced, modes, solver=solver)
         return BaseMotion(shape=shape, factor=self.factor)
 
     def inertia(self, model: Structure, reduced: AnalysisModel) -> sp.csr_matrix:
@@ -70,7 +66,35 @@ def base_motion(model: Structure, excitation: HarmonicExcitation) -> BaseMotion 
     Raises:
         InputError: freedoms are moved that no SPC holds.
     """
-    motion, elimination = excitation.motion, model.elimination
+    shape = moved_shape(model, excitation.motion)
+    if shape is None:
+        return None
+    return BaseMotion(shape=shape, factor=excitation.motion_factor)
+
+
+def carried_shape(
+    shape: sp.csr_matrix,
+    model: Structure,
+    reduced: AnalysisModel,
+    modes: Modes,
+    *,
+    solver: SolverName | None = None,
+) -> sp.csr_matrix:
+    """(g, m) a motion with the static response of the free freedoms to it."""
+    force = reduced.load(sp.csr_matrix(model.matrices.stiffness @ shape))
+    along = static_response(
+        reduced.stiffness, reduced.mass, modes, -force.toarray(), solver=solver
+    )
+    return sp.csr_matrix(shape + reduced.expand @ sp.csr_matrix(along))
+
+
+def moved_shape(model: Structure, motion: sp.csr_matrix) -> sp.csr_matrix | None:
+    """(g, m) the g-set from motions of constrained freedoms (g, m); None: none moves.
+
+    Raises:
+        InputError: freedoms are moved that no SPC holds.
+    """
+    elimination = model.elimination
     moved = np.unique(motion.nonzero()[0])
     if not len(moved):
         return None
@@ -82,5 +106,4 @@ def base_motion(model: Structure, excitation: HarmonicExcitation) -> BaseMotion 
             f"SPC set {model.subcase.spc or '(none is selected)'}"
             for dof in loose[:20]
         )
-    shape = sp.csr_matrix(elimination.S @ motion[elimination.s])
-    return BaseMotion(shape=shape, factor=excitation.motion_factor)
+    return sp.csr_matrix(elimination.S @ motion[elimination.s])

@@ -4,7 +4,7 @@ Subcases that differ by loads and initial conditions only are integrated togethe
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import groupby
 
 import numpy as np
@@ -24,7 +24,9 @@ from fem.files.force_histories import (
 )
 from fem.files.hdf5 import PointLayout, ResultFile
 from fem.loads import (
+    EnforcedMotion,
     dynamic_excitation,
+    dynamic_motions,
     initial_conditions,
     table_notices,
     time_steps,
@@ -44,9 +46,11 @@ from fem.response.direct import TransientLoad, direct_transient
 from fem.response.modal import modal_transient, residual_vectors
 from fem.response.observation import Observer, Quantity
 from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.enforced_motion import carried_shape
 from fem.solution.holding import solve_or_hold
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
+from fem.solution.moving_base import moving_base, say_what_is_absolute, with_base
 from fem.solution.options import Options
 from fem.solution.requests import (
     ELEMENT_RESULTS,
@@ -105,6 +109,8 @@ def _direct(
     steps = _steps(model, cases, options)
     inputs = _inputs(model, cases)
     load_g = inputs.load
+    if any(inputs.motions):
+        say_what_is_absolute(model, options)
 
     def inform(text: str) -> None:
         size = results.size_bytes() / 1e6
@@ -114,16 +120,18 @@ def _direct(
     def run(model: Structure) -> tuple[Float64, list[Observer]]:
         results.discard(*(f"transient/{case.id}" for case in cases))
         reduced = analysis_model(model, solver=options.solver)
-        observers = _observers(model, cases, reduced, inputs, results, options)
+        base = moving_base(model, inputs.motions, steps)
+        load, expand = with_base(base, model, reduced, load_g)
+        observers = _observers(model, cases, expand, inputs, results, options)
         time = direct_transient(
             reduced.stiffness,
             reduced.mass,
             reduced.damping,
             steps=steps,
-            load=TransientLoad(reduced.load(load_g.pattern), load_g.evaluate),
+            load=load,
             u0=_start(model, reduced, inputs.u0, options),
             v0=_start(model, reduced, inputs.v0, options),
-            observers=observers,
+            observers=observers if base is None else base.seen_by(observers),
             solver=options.solver,
             threads=options.threads,
             progress=options.console.progress("direct transient"),
@@ -144,8 +152,12 @@ def _modal(
     if modes.count < found.count:
         options.console.say(f"{modes.count} of {found.count} modes are used")
     inputs = _inputs(model, cases)
-    load_g = inputs.load
-    load = TransientLoad(reduced.load(load_g.pattern), load_g.evaluate)
+    base = moving_base(model, inputs.motions, steps)
+    if base is not None:
+        say_what_is_absolute(model, options)
+        shape = carried_shape(base.shape, model, reduced, modes, solver=options.solver)
+        base = replace(base, shape=shape)
+    load, expand = with_base(base, model, reduced, inputs.load)
     options.console.say(mode_table(modes))
     wanted = model.subcase.resvec or str(model.deck.param("RESVEC"))
     if not wanted.upper().startswith("NO"):
@@ -154,7 +166,7 @@ def _modal(
             reduced.stiffness, reduced.mass, modes, load.pattern, solver=options.solver
         )
         options.console.say(f"{modes.count - count} residual vectors")
-    observers = _observers(model, cases, reduced, inputs, results, options)
+    observers = _observers(model, cases, expand, inputs, results, options)
     time = modal_transient(
         modes,
         reduced.mass,
@@ -164,7 +176,7 @@ def _modal(
         ratio=modal_ratios(model.deck, model.subcase, modes.frequency_hz),
         u0=_start(model, reduced, inputs.u0, options),
         v0=_start(model, reduced, inputs.v0, options),
-        observers=observers,
+        observers=observers if base is None else base.seen_by(observers),
         progress=options.console.progress("modal transient"),
     )
     _finish(cases, time, observers, results)
@@ -184,9 +196,10 @@ def _steps(
 
 @dataclass(frozen=True, kw_only=True)
 class _Inputs:
-    """Loads of all cases on the g-set, and initial states (c, g)."""
+    """Loads of all cases on the g-set, what moves, and initial states (c, g)."""
 
     load: TransientLoad
+    motions: list[list[EnforcedMotion]]
     element_loads: ElementLoads | None
     u0: Float64
     v0: Float64
@@ -202,7 +215,7 @@ def _inputs(model: Structure, cases: list[Subcase]) -> _Inputs:
                 "there is nothing to solve"
             )
         excitations.append(
-            dynamic_excitation(model.deck, model.points, case, mass)
+            dynamic_excitation(model.deck, model.points, case, mass, beside_motion=True)
             if case.dload
             else None
         )
@@ -224,6 +237,7 @@ def _inputs(model: Structure, cases: list[Subcase]) -> _Inputs:
     states = [initial_conditions(model.deck, model.points, case) for case in cases]
     return _Inputs(
         load=TransientLoad(sp.csr_matrix(sp.hstack(patterns)), evaluate),
+        motions=[dynamic_motions(model.deck, model.points, case) for case in cases],
         element_loads=side_by_side(list(zip(on_elements, counts)))
         if any(loads is not None for loads in on_elements)
         else None,
@@ -258,7 +272,7 @@ def _start(
 def _observers(
     model: Structure,
     cases: list[Subcase],
-    reduced: AnalysisModel,
+    expand: sp.csr_matrix,
     inputs: _Inputs,
     results: ResultFile,
     options: Options,
@@ -281,13 +295,13 @@ def _observers(
                         model.points,
                         selection,
                         _QUANTITIES[quantity],
-                        reduced.expand,
+                        expand,
                         i,
                     )
                 )
-        observers += _forces(model, case, i, reduced, inputs.load, results, name)
+        observers += _forces(model, case, i, expand, inputs.load, results, name)
         observers += _element_results(
-            model, case, i, reduced, inputs, results, options, name
+            model, case, i, expand, inputs, results, options, name
         )
     return observers
 
@@ -312,7 +326,7 @@ def _element_results(
     model: Structure,
     case: Subcase,
     number: int,
-    reduced: AnalysisModel,
+    expand: sp.csr_matrix,
     inputs: _Inputs,
     results: ResultFile,
     options: Options,
@@ -344,19 +358,19 @@ def _element_results(
                 model.points, model.blocks, wanted(case, request), loads
             )
         for table in chosen:
-            response = TableResponse(table, reduced.expand, number, factors)
+            response = TableResponse(table, expand, number, factors)
             yield results.table_history(f"{name}/element_{kind}", response)
         if options.envelope and kind != "strain":
             for table in tables("ALL"):
                 group = f"{name}/envelope/{kind}"
-                yield Envelope(table, reduced.expand, group, number, factors)
+                yield Envelope(table, expand, group, number, factors)
 
 
 def _forces(
     model: Structure,
     case: Subcase,
     number: int,
-    reduced: AnalysisModel,
+    expand: sp.csr_matrix,
     load: TransientLoad,
     results: ResultFile,
     name: str,
@@ -371,7 +385,7 @@ def _forces(
                 f"{name}/{kind}_force",
                 PointLayout(points, wanted(case, request)),
                 model,
-                reduced.expand,
+                expand,
                 load,
                 number,
             )
@@ -389,7 +403,7 @@ def _forces(
             wanted=ids_of(wanted(case, "GPFORCE")),
         )
         group = results.grid_force_group(f"{name}/grid_point_force", balance)
-        yield GridForceHistory(group, balance, model, reduced.expand, load, number)
+        yield GridForceHistory(group, balance, model, expand, load, number)
 
 
 def _patterns(load: TransientLoad) -> int:
