@@ -17,6 +17,7 @@ from drake_landing.airframe.basis import Basis, elastic_basis, with_residual_vec
 from drake_landing.airframe.free_flight import check_mass
 from drake_landing.airframe.selection import Candidates, select_modes
 from drake_landing.airframe.skeleton import Skeleton, element_edges, element_faces
+from drake_landing.airframe.supports import supports_of
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.scenario import Scenario
@@ -151,9 +152,12 @@ def check_nodes(structure: Structure, aircraft: Aircraft) -> None:
         raise InputError([*problems, *cut])
     loose = _loose(structure, aircraft.nodes)
     if loose:
+        why = "it is constrained, or not connected to any element"
+        if supports := supports_of(structure):
+            why = f"{supports.story}; {supports.remedy}"
         raise InputError(
             f"{aircraft.nodes[node]}: grid {node} of {deck} does not move with the "
-            "structure: it is constrained (SPC), or not connected to any element"
+            f"structure: {why}"
             for node in loose
         )
 

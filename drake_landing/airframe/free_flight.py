@@ -9,6 +9,7 @@ from collections import Counter
 import numpy as np
 import numpy.typing as npt
 
+from drake_landing.airframe.supports import supports_of
 from fem.constraints.autospc import grouped
 from fem.errors import InputError
 from fem.model.mechanisms import Mechanism
@@ -100,10 +101,15 @@ def _held(structure: Structure) -> str:
     rigid = structure.rigid_body
     energy = np.einsum("fi,fi->i", rigid, structure.stiffness @ rigid)
     stiff = [a for a, e in zip(_AXES, energy) if e > _HOLDS * energy.max()]
+    where = f"in {', '.join(stiff) or 'part'}"
+    if supports := supports_of(structure):
+        return (
+            f"the airframe must fly freely, but is held {where}: {supports.story}; "
+            f"{supports.remedy}"
+        )
     return (
-        f"the airframe must fly freely, but something holds it in "
-        f"{', '.join(stiff) or 'part'}; take out SPC, grounded springs, or elements "
-        "that do not let it turn"
+        f"the airframe must fly freely, but something holds it {where}; take out "
+        "grounded springs, or elements that do not let it turn"
     )
 
 

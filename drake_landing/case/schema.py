@@ -162,7 +162,8 @@ class Airframe(Section):
     )
     ignore: tuple[str, ...] = Field(
         default=(),
-        description="unsupported cards of the deck to go on without, e.g. [CBEND]",
+        description="cards of the deck to go on without: unsupported ones, or SPC1 of "
+        "its own solution, which would hold an aircraft that should fly",
     )
     matrices: Matrices | None = Field(
         default=None,

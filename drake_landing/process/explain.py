@@ -218,10 +218,12 @@ def _airframe(
 def _components(elements: Inventory) -> str:
     """Of what the stresses will be told, and how to name it otherwise."""
     counts = elements.elements.component.value_counts()
-    said = [f"{name} ({count})" for name, count in counts.head(_COMPONENTS).items()]
+    said = [
+        f"{name} ({count} elements)" for name, count in counts.head(_COMPONENTS).items()
+    ]
     said += [f"{len(counts) - _COMPONENTS} more"] * (len(counts) > _COMPONENTS)
-    named = ", ".join(said) or "none with stresses"
-    return _line("components", f"{named} elements; parts.components names others")
+    named = ", ".join(said) or "no elements with stresses"
+    return _line("components", f"{named}; parts.components names others")
 
 
 def _gears(aircraft: Aircraft) -> Iterator[str]:

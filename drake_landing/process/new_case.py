@@ -1,8 +1,9 @@
 """A commented case for a deck, so that nobody starts from an empty file.
 
 What the deck tells is filled in: units by the stiffness of its materials, axes by its
-symmetry and its fin, mass, points worth monitoring, grids near where gears usually are.
-Gears have values of the right size for the mass; each line that is a guess says so.
+symmetry and its tail, mass, points worth monitoring, grids near where gears usually
+are. Supports of the deck's own solution are left out. Gears have values of the right
+size for the mass; each line that is a guess says so.
 """
 
 import os
@@ -12,6 +13,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+import numpy.typing as npt
 
 from drake_landing.airframe.deck_units import (
     METALS,
@@ -22,6 +24,7 @@ from drake_landing.airframe.deck_units import (
 from drake_landing.airframe.free_flight import half_model
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.selection import expected_pulses
+from drake_landing.airframe.supports import Supports, supports_of
 from drake_landing.cache import Cache
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.deck_frame import Axes
@@ -40,6 +43,8 @@ _GRAVITY = 9.81  # m/s²
 _NOSE_SHARE = 0.1  # of the weight
 _STROKE, _STATIC = 0.35, 0.7  # m; share of the stroke at rest
 _CANDIDATES = 4
+_END, _MIDDLE = 0.2, 0.1  # of the length: nose and tail; of the width: the fuselage
+_TAIL = 0.03  # of the length: by how much a tail is higher and wider than a nose
 _AXES = ("x", "-x", "y", "-y", "z", "-z")
 
 
@@ -95,6 +100,7 @@ class _Layout:
     mass: float
     cg: Float64  # (3,) in A
     damped: bool
+    middle: float  # height of the fuselage
 
     def nearest(self, target: Sequence[float], count: int = 1) -> list[int]:
         """Rows of the grids next to a point in A."""
@@ -119,8 +125,8 @@ def new_case(deck: Path, case: Path, stated: Stated | None = None) -> str:
     units = stated.units or guess_units(raw)
     structure = Structure.from_deck(in_si(raw, units_of(units)))
     _check_size(structure, units)
-    layout = _layout(structure, stated)
-    text = "\n".join(_lines(deck, case, stated, units, layout)) + "\n"
+    layout, supports = _layout(structure, stated), supports_of(structure)
+    text = "\n".join(_lines(deck, case, stated, units, layout, supports)) + "\n"
     return text + _transient(
         parse_case(text, file=str(case), folder=case.resolve().parent)
     )
@@ -180,21 +186,23 @@ def _layout(structure: Structure, stated: Stated) -> _Layout:
         raise InputError("the deck has no mass, expected that of an airframe")
     axes, b = _guessed_axes(p, stated), structure.damping
     R_BA = rotation_AB(axes).T
+    p_A = p @ R_BA
     return _Layout(
         axes=axes,
         ids=structure.points.grid_id,
-        p=p @ R_BA,
+        p=p_A,
         R_BA=R_BA,
         mass=float(weight.total),
         cg=np.asarray(weight.center) @ R_BA,
         damped=bool(b.stiffness_factor or b.mass_factor or b.other is not None),
+        middle=float(np.median(p_A[_near_middle(p_A[:, 1]), 2])),
     )
 
 
 def _guessed_axes(p: Float64, stated: Stated) -> Axes:
-    """Forward and up of grids (g, 3): as stated, else by symmetry and fin.
+    """Forward and up of grids (g, 3): as stated, else by symmetry and tail.
 
-    The fin is what stands out farthest from the plane of the rest, upward and aft.
+    The tail is the end that is higher and wider; its fin stands up from the fuselage.
     """
     taken = {axis[-1] for axis in (stated.forward, stated.up) if axis}
     lateral = _lateral(p, [a for a in range(3) if "xyz"[a] not in taken])
@@ -204,12 +212,36 @@ def _guessed_axes(p: Float64, stated: Stated) -> Axes:
         "xyz"[along] == (stated.up or " ")[-1]
     ):
         along, vertical = vertical, along
-    height = p[:, vertical] - np.median(p[:, vertical])
+    length = float(np.ptp(p[:, along]))
+    ends = _ends(p[:, along])
+    before, behind = (np.ptp(p[end][:, [lateral, vertical]], axis=0) for end in ends)
+    tail_ahead = bool(behind.sum() > before.sum())  # at the greater coordinate
+    tailed = abs(behind.sum() - before.sum()) > _TAIL * length
+    if stated.forward:
+        tail_ahead, tailed = stated.forward.startswith("-"), True
+    tail = p[ends[int(tail_ahead)], vertical]
+    if not tailed or np.ptp(tail) < _TAIL * length:  # what stands out tells, then
+        tail = p[:, vertical]
+    height = tail - np.median(p[_near_middle(p[:, lateral]), vertical])
     up = stated.up or "-" * bool(-height.min() > height.max()) + "xyz"[vertical]
-    height = -height if up.startswith("-") else height
-    high = height >= 0.9 * height.max(initial=0.0)
-    aft = p[high, along].mean() >= p[:, along].mean()
-    return Axes(forward=stated.forward or "-" * bool(aft) + "xyz"[along], up=up)
+    if not tailed:
+        height = -height if up.startswith("-") else height
+        high = height >= 0.9 * height.max(initial=0.0)
+        tail_ahead = bool(p[high, along].mean() >= p[:, along].mean())
+    return Axes(forward=stated.forward or "-" * tail_ahead + "xyz"[along], up=up)
+
+
+def _ends(x: Float64) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
+    """Which of some coordinates lie at the lower and at the upper end."""
+    reach = _END * float(np.ptp(x))
+    return x <= x.min() + reach, x >= x.max() - reach
+
+
+def _near_middle(y: Float64) -> npt.NDArray[np.bool_]:
+    """Which of some coordinates lie in the middle between the outermost; else all."""
+    low, high = float(y.min()), float(y.max())
+    near = np.abs(y - 0.5 * (low + high)) <= _MIDDLE * (high - low)
+    return near if near.any() else np.ones(len(y), bool)
 
 
 def _lateral(p: Float64, among: Sequence[int]) -> int:
@@ -221,7 +253,12 @@ def _lateral(p: Float64, among: Sequence[int]) -> int:
 
 
 def _lines(
-    deck: Path, case: Path, stated: Stated, units: str, a: _Layout
+    deck: Path,
+    case: Path,
+    stated: Stated,
+    units: str,
+    a: _Layout,
+    supports: Supports | None,
 ) -> Iterator[str]:
     folder = case.resolve().parent
     shown = os.path.relpath(deck.resolve(), folder)
@@ -237,8 +274,12 @@ def _lines(
     yield f"  deck: {shown!r}"
     guess = "" if stated.units else "GUESS by its materials, else new --units: "
     yield f"  units: {units} # {guess}SI, mm-t-N or in-lbf"
+    if supports:
+        cards = ", ".join(supports.cards)
+        yield f"  # An aircraft flies freely, but {supports.story}."
+        yield f"  ignore: [{cards}]" if cards else "  # Take it out of the deck."
     known = stated.forward and stated.up
-    guess = "" if known else " # GUESS by symmetry and fin, else new --forward, --up"
+    guess = "" if known else " # GUESS by symmetry and tail, else new --forward, --up"
     yield f"  axes: {{ forward: {a.axes.forward}, up: {a.axes.up} }}{guess}"
     if not a.damped:
         yield "  damping: { ratio: { 3: 0.01, 30: 0.03 } } # GUESS: the deck has none"
@@ -286,9 +327,8 @@ def _gears(a: _Layout) -> Iterator[str]:
         "main_starboard": ((main_x, track), 0.5 * (1.0 - _NOSE_SHARE) * weight),
         "main_port": ((main_x, -track), 0.5 * (1.0 - _NOSE_SHARE) * weight),
     }
-    low = float(np.median(a.p[:, 2]))
     for name, ((x, y), load) in places.items():
-        rows = a.nearest((x, y, low), _CANDIDATES)
+        rows = a.nearest((x, y, a.middle), _CANDIDATES)
         others = ", ".join(f"{a.ids[r]} ({_at(a, r)})" for r in rows[1:])
         yield f"  - name: {name}"
         yield f"    attachment_node: {a.ids[rows[0]]} # {_at(a, rows[0])}"

@@ -68,6 +68,25 @@ def test_a_case_that_is_there_is_left(
     assert "is there already" in capsys.readouterr().err
 
 
+def test_supports_of_the_decks_own_solution_are_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    deck = tmp_path / "deck.bdf"
+    text = (HERE / "tiny_aircraft.bdf").read_text()
+    text = text.replace("METHOD = 1\n", "METHOD = 1\nSPC = 7\n")
+    deck.write_text(text.replace("BEGIN BULK\n", "BEGIN BULK\nSPC1,7,123456,5\n"))
+    case = written(tmp_path, deck)
+    assert case.airframe.ignore == ("SPC1",)
+    new = tmp_path / "new.yaml"
+    assert guarded(app, ["check", str(new)]) == 0
+    capsys.readouterr()
+    new.write_text(new.read_text().replace("  ignore: [SPC1]\n", ""))
+    assert guarded(app, ["check", str(new)]) == 2
+    said = capsys.readouterr().err
+    assert "SPC = 7 holds grid 5 T1 T2 T3 R1 R2 R3" in said
+    assert "airframe.ignore: [SPC1]" in said
+
+
 def test_half_a_model_is_said_and_a_whole_one_is_not() -> None:
     whole = np.array(
         [
@@ -103,13 +122,22 @@ CLOUD = np.array(
     + [(5.0, side * 3.0, -1.2) for side in (-1, 1)]
     + [(13.5, 0.0, 1.5), (14.0, 0.0, 3.0)]
 )
+# A high wing, hence most grids far above belly, gears and a tail of T form.
+HIGH_WING = np.array(
+    [(x, 0.0, 0.0) for x in np.linspace(-5.0, 7.0, 13)]
+    + [(0.0, side * y, 1.2) for y in range(1, 9) for side in (-1, 1)]
+    + [(-1.0, side * 2.5, 1.0) for side in (-1, 1)]
+    + [(0.5, -1.4, -0.7), (0.5, 1.4, -0.7), (-4.0, 0.0, -0.5)]
+    + [(6.8, side * y, 2.0) for y in (0.0, 1.2, 2.4) for side in (-1, 1)]
+)
 SIGNED = [sign + axis for axis in "xyz" for sign in ("", "-")]
 
 
+@pytest.mark.parametrize("cloud", [CLOUD, HIGH_WING])
 @pytest.mark.parametrize("forward", SIGNED)
-def test_axes_are_found_however_a_deck_lies(forward: str) -> None:
+def test_axes_are_found_however_a_deck_lies(forward: str, cloud: np.ndarray) -> None:
     for up in (axis for axis in SIGNED if axis[-1] != forward[-1]):
-        grids = CLOUD @ rotation_AB(Axes.model_validate({"forward": forward, "up": up}))
+        grids = cloud @ rotation_AB(Axes.model_validate({"forward": forward, "up": up}))
         for stated in (
             Stated(),
             Stated(forward=forward),
