@@ -35,6 +35,8 @@ def run_command(load: Callable[[], Callable[..., Any]], name: str) -> NoReturn:
         load: imports and returns it; signals count from here on.
         name: of the program, for usage messages.
     """
+    # Workers take no modules from the working directory: it may be somebody else's.
+    os.environ["PYTHONSAFEPATH"] = "1"
     status = exit_status(lambda **options: load()(**options), name)
     for number in _SIGNALS:  # nothing is left that could be interrupted
         signal.signal(number, signal.SIG_IGN)

@@ -87,13 +87,16 @@ def _page(
     ground: OnGround,
     airframe: Skeleton | None,
 ) -> None:
-    import matplotlib.pyplot as plt
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    from drake_landing.drawing_style import plain_style
 
     height = 2.7 * len(shown) + 0.9
-    figure, axes = plt.subplots(
-        len(shown), len(_VIEWS), figsize=(12, height), squeeze=False
-    )
-    try:
+    with plain_style():
+        figure = Figure(figsize=(12, height))
+        canvas = FigureCanvasAgg(figure)
+        axes = figure.subplots(len(shown), len(_VIEWS), squeeze=False)
         kinds: dict[str, str] = {}
         texts = []
         for row, (name, case) in zip(axes, shown):
@@ -111,11 +114,9 @@ def _page(
         )
         for axis, of_axis in zip(axes.flat, texts, strict=True):
             axis.apply_aspect()
-            _apart(of_axis, figure.canvas.get_renderer())
+            _apart(of_axis, canvas.get_renderer())
         with written_aside(path) as part:
             figure.savefig(part, dpi=110)
-    finally:
-        plt.close(figure)
 
 
 def _legend(figure, kinds: dict[str, str]) -> None:

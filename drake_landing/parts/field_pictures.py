@@ -78,7 +78,8 @@ def can_draw() -> bool:
 @cache
 def _vtk_draws() -> bool:
     """Tried once; a crash of a driver stays in a process of its own."""
-    command = [sys.executable, "-c", _TRY]
+    # Not from modules of the working directory, which may be somebody else's.
+    command = [sys.executable, "-P", "-c", _TRY]
     try:
         done = subprocess.run(command, capture_output=True, timeout=120, check=False)
     except (OSError, subprocess.TimeoutExpired):

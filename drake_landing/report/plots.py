@@ -17,6 +17,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatter
 
+from drake_landing.drawing_style import plain_style
 from fem.files.escaping import attribute
 
 Float64 = npt.NDArray[np.float64]
@@ -30,7 +31,6 @@ WIDTH = 9.6  # inch; the page scales the picture to its column
 
 _STYLE = {
     "svg.fonttype": "none",
-    "text.parse_math": False,  # names may have a $
     "svg.hashsalt": "drake-landing",  # equal data give equal files
     "font.family": "sans-serif",
     "font.sans-serif": ["DejaVu Sans"],
@@ -69,7 +69,7 @@ def panels(
         height: of a row, inch.
         shared: all panels have one horizontal axis.
     """
-    with mpl.rc_context(_STYLE):
+    with plain_style(), mpl.rc_context(_STYLE):
         figure = Figure(figsize=(WIDTH, height * rows + 0.35), layout="constrained")
         FigureCanvasSVG(figure)
         grid = figure.subplots(rows, columns, squeeze=False, sharex=shared)
@@ -85,7 +85,7 @@ def svg(figure: Figure, label: str) -> str:
     """
     out = io.StringIO()
     _plain_ticks(figure)
-    with mpl.rc_context(_STYLE), warnings.catch_warnings():
+    with plain_style(), mpl.rc_context(_STYLE), warnings.catch_warnings():
         # The page's fonts have what this one has not.
         warnings.filterwarnings("ignore", "Glyph .* missing")
         figure.savefig(out, format="svg", metadata={"Date": None}, transparent=True)

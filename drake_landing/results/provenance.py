@@ -182,7 +182,7 @@ def _program() -> dict[str, str]:
 def _commit() -> str:
     """Of the source tree, or of the installation; with a mark where files differ."""
     try:
-        git = ["git", "-C", str(_OWN)]
+        git = ["git", "--no-optional-locks", "-C", str(_OWN)]  # writes nothing
         top = _output([*git, "rev-parse", "--show-toplevel"])
         if Path(top).resolve() == _OWN:
             changed = _output([*git, "status", "--porcelain", "-uno"])

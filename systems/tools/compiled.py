@@ -29,6 +29,10 @@ from numba.core import config
 from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
+# Numba takes settings from the working directory, which may be somebody else's.
+config._config_fname = ""
+config.reload_config()
+
 P = ParamSpec("P")
 R = TypeVar("R")
 

@@ -9,8 +9,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import matplotlib as mpl
 import pytest
+from numba.core import config as numba_settings
 
+import systems.tools.compiled  # noqa: F401  that takes no settings
+from drake_landing.drawing_style import plain_style
+from drake_landing.parts import field_pictures
 from fem.errors import InputError
 from fem.files.folders import claim
 
@@ -139,6 +144,47 @@ def test_a_check_writes_nothing(place: Path) -> None:
     assert outside(opened, place) == []
     assert written(opened, place / "scratch") == []
     assert state(place / "given") == before
+
+
+def test_what_lies_in_the_working_directory_is_no_setting(tmp_path, monkeypatch):
+    (tmp_path / ".numba_config.yaml").write_text("dump_ir: 1\n")
+    monkeypatch.chdir(tmp_path)
+    numba_settings.reload_config()
+    assert not numba_settings.DUMP_IR
+    with mpl.rc_context({"text.usetex": True, "figure.dpi": 9.0}), plain_style():
+        assert not mpl.rcParams["text.usetex"]
+        assert mpl.rcParams["figure.dpi"] == mpl.rcParamsDefault["figure.dpi"]
+
+
+WORKER = """
+import multiprocessing, time
+from fem.exit_status import run_command
+
+def command(**_):
+    context = multiprocessing.get_context("spawn")
+    worker = context.Process(target=time.sleep, args=(0.0,))
+    worker.start()
+    worker.join()
+    return worker.exitcode
+
+if __name__ == "__main__":
+    run_command(lambda: command, "x")
+"""
+
+
+def test_what_lies_in_the_working_directory_is_not_run(tmp_path, monkeypatch):
+    for name in ("multiprocessing", "random", "bisect"):
+        (tmp_path / f"{name}.py").write_text("open('ran', 'w')")
+    program = tmp_path / "elsewhere" / "program.py"
+    program.parent.mkdir()
+    program.write_text(WORKER)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(field_pictures, "_TRY", "import bisect")
+    assert field_pictures._vtk_draws.__wrapped__()
+    environment = {**os.environ, "PYTHONPATH": str(HERE.parents[1])}
+    done = subprocess.run([sys.executable, program], env=environment, check=False)
+    assert done.returncode == 0
+    assert not (tmp_path / "ran").exists()
 
 
 @pytest.mark.slow
