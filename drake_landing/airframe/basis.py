@@ -15,7 +15,8 @@ import scipy.sparse as sp
 
 from drake_landing.airframe.free_flight import check_free_flight
 from drake_landing.cache import Arrays, Cache, content_key
-from drake_landing.case.schema import Airframe, Selection
+from drake_landing.case.airframe import Airframe
+from drake_landing.case.mode_selection import Selection
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.modes import Modes, ModesError, normal_modes, rigid_energy
 from fem.algebra.reduction import Reduction, reduce_craig_bampton

@@ -19,9 +19,9 @@ from drake_landing.airframe.selection import Candidates, select_modes
 from drake_landing.airframe.skeleton import Skeleton, element_edges, element_faces
 from drake_landing.airframe.supports import supports_of
 from drake_landing.cache import Cache
+from drake_landing.case.airframe import Airframe
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.schema import Airframe
 from drake_landing.progress import Reporter, Silent
 from fem.errors import InputError
 from fem.geometry.points import Points

@@ -12,9 +12,10 @@ from drake_landing.airframe.pulse_modes import galerkin_modes, pulse_directions
 from drake_landing.airframe.pulses import GearPulses, touchdown_pulses
 from drake_landing.airframe.relevance import ModalModel, Relevance, response
 from drake_landing.cache import Cache
+from drake_landing.case.airframe import Airframe
 from drake_landing.case.axes import gear_in_A, rotation_AB
+from drake_landing.case.mode_selection import Selection
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.schema import Airframe, Selection
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]

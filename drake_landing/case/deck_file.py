@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drake_landing.case.schema import Airframe
+from drake_landing.case.airframe import Airframe
 from fem.errors import InputError, nearest
 
 

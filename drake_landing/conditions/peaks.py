@@ -10,7 +10,7 @@ from drake_landing.case.axes import gear_in_A
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.design_values import LEVEL_FACTOR, touchdown_speeds
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.schema import Simulation
+from drake_landing.case.simulation import Simulation
 from drake_landing.conditions.cases23 import sink_rate as sink_rate_23
 from drake_landing.conditions.poses import Deflections
 from drake_landing.gears.data import LandingGear

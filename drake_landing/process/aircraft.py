@@ -13,13 +13,14 @@ from drake_landing.airframe.free_flight import check_mass
 from drake_landing.airframe.gear_checks import check_gears
 from drake_landing.airframe.mass_cases import check_target, write_mass_case
 from drake_landing.airframe.steady import steady_flight
+from drake_landing.case.airframe import Airframe, Matrices
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.deck_file import deck_file
 from drake_landing.case.lift import Lift
 from drake_landing.case.mass_cases import mass_case_of
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.schema import Airframe, Case, Matrices
+from drake_landing.case.schema import Case
 from drake_landing.case.steady import Steady
 from drake_landing.gears.data import LandingGear
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft

@@ -14,8 +14,9 @@ from drake_landing.airframe.basis import elastic_basis
 from drake_landing.airframe.body import check_nodes, modal_body
 from drake_landing.airframe.selection import Candidates, Choice
 from drake_landing.cache import Cache, content_key
+from drake_landing.case.airframe import Basis
 from drake_landing.case.axes import rotation_AB
-from drake_landing.case.schema import Basis, Case
+from drake_landing.case.schema import Case
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.progress import Reporter
 from drake_landing.reference.studies.plan import FULL_MODES, NAMES, Plan, RunName

@@ -3,15 +3,11 @@
 from dataclasses import dataclass, field
 from typing import get_args
 
+from drake_landing.case.airframe import Basis
+from drake_landing.case.mode_selection import Selection, parse_selection
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.schema import (
-    Basis,
-    Case,
-    Selection,
-    Simulation,
-    Transient,
-    parse_selection,
-)
+from drake_landing.case.schema import Case
+from drake_landing.case.simulation import Simulation, Transient
 
 _SCENARIO = Scenario(sink_rate=1.8288, forward_speed=67.0)  # 6 ft/s, three points
 _SIMULATION = Simulation(duration=0.6, accuracy=1e-4)

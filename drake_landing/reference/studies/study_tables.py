@@ -9,7 +9,7 @@ import pandas as pd
 
 from drake_landing.airframe.oscillators import modal_accelerations
 from drake_landing.airframe.selection import Candidates
-from drake_landing.case.schema import Selection
+from drake_landing.case.mode_selection import Selection
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.reference.studies.airframes import StudyAirframe
 from drake_landing.reference.studies.budget import (

@@ -13,7 +13,7 @@ from drake_landing.airframe.basis import (
 )
 from drake_landing.airframe.selection import modal_model
 from drake_landing.cache import Cache
-from drake_landing.case.schema import Airframe
+from drake_landing.case.airframe import Airframe
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 

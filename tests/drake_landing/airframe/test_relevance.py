@@ -20,8 +20,9 @@ from drake_landing.airframe.relevance import (
     response,
 )
 from drake_landing.airframe.selection import Candidates, modal_model, select_modes
+from drake_landing.case.airframe import Airframe
 from drake_landing.case.reading import parse_case
-from drake_landing.case.schema import Airframe, Case
+from drake_landing.case.schema import Case
 from drake_landing.process.aircraft import prepare_aircraft
 from fem.algebra.modes import Modes
 from fem.deck.reader import read_deck

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from drake_landing.case.mode_selection import Selection
 from drake_landing.case.reading import case_text, load_case, parse_case, schema_text
-from drake_landing.case.schema import Case, Selection
+from drake_landing.case.schema import Case
 from fem.errors import InputError
 
 MINIMAL = """\

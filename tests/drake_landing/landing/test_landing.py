@@ -10,7 +10,9 @@ from pydrake.systems.analysis import Simulator
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.case.deck_frame import Axes
 from drake_landing.case.reading import load_case
-from drake_landing.case.schema import Case, Scenario, Simulation
+from drake_landing.case.scenario import Scenario
+from drake_landing.case.schema import Case
+from drake_landing.case.simulation import Simulation
 from drake_landing.landing.history import LandingHistory, gear_peaks
 from drake_landing.landing.run import (
     LandingError,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.schema import Simulation
+from drake_landing.case.simulation import Simulation
 from drake_landing.landing import stall
 from drake_landing.landing.lifetime import used_once
 from drake_landing.landing.run import LandingError, build_landing, fly

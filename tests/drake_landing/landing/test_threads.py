@@ -5,7 +5,8 @@ import pytest
 import scipy.sparse as sp
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from drake_landing.case.schema import Scenario, Simulation
+from drake_landing.case.scenario import Scenario
+from drake_landing.case.simulation import Simulation
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.run import fly
 from drake_landing.landing.threads import single_threaded_blas

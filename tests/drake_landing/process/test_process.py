@@ -11,8 +11,9 @@ import pandas as pd
 import pytest
 
 from drake_landing.airframe.body import AirframeModel, load_airframe, mass_properties
+from drake_landing.case.airframe import Airframe
 from drake_landing.case.reading import load_case, parse_case
-from drake_landing.case.schema import Airframe, Case
+from drake_landing.case.schema import Case
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.run import run_case
 from drake_landing.progress import Silent

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from drake_landing.cache import Cache
-from drake_landing.case.schema import Simulation, Transient
+from drake_landing.case.simulation import Simulation, Transient
 from drake_landing.reference.studies import PLANS, Study, run_study
 from drake_landing.reference.studies import study as story
 from drake_landing.reference.studies.plan import RunName

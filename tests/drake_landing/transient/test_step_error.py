@@ -9,7 +9,8 @@ import pytest
 from drake_landing.airframe.basis import elastic_basis
 from drake_landing.airframe.load_shapes import load_model
 from drake_landing.airframe.selection import expected_pulses, modal_model
-from drake_landing.case.schema import Airframe, Case
+from drake_landing.case.airframe import Airframe
+from drake_landing.case.schema import Case
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.explain import explain
