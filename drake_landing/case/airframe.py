@@ -13,7 +13,7 @@ from pydantic import (
 from drake_landing.case.chord import Chord
 from drake_landing.case.damping import AirframeDamping
 from drake_landing.case.deck_frame import Axes
-from drake_landing.case.labels import Label, OneLine
+from drake_landing.case.labels import Label, LineOrNumber, OneLine
 from drake_landing.case.mass_cases import MassCase, mass_case_of
 from drake_landing.case.mode_selection import Selection, SelectionText
 from drake_landing.case.section import Section, number
@@ -62,11 +62,10 @@ class Airframe(Section):
         "reference aircraft, or one that another package registers",
         json_schema_extra={"examples": list(registered())},
     )
-    topology: OneLine | None = Field(
+    topology: LineOrNumber | None = Field(
         default=None,
         description="how the built-in model holds its gears: 1, 2 or distributed, by "
         "default the model's first; for a deck a mere label of the result tables",
-        coerce_numbers_to_str=True,
         json_schema_extra={
             "anyOf": [{"type": t} for t in ("string", "integer", "null")]
         },

@@ -2,7 +2,7 @@
 
 from typing import Annotated
 
-from pydantic import AfterValidator
+from pydantic import AfterValidator, Field
 
 _LONGEST = 80
 _LONGEST_LINE = 1000
@@ -24,3 +24,4 @@ def _line(text: str, longest: int = _LONGEST_LINE) -> str:
 
 Label = Annotated[str, AfterValidator(_label)]
 OneLine = Annotated[str, AfterValidator(_line)]
+LineOrNumber = Annotated[str, Field(coerce_numbers_to_str=True), AfterValidator(_line)]
