@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from benchmarks.verification import (
+    beam_masses,
     buckling,
     cantilevers,
     commercial,
@@ -86,6 +87,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         nafems_beams.fv5,
         nafems_beams.deep_beam_transient,
         nafems_beams.euler_cantilever,
+        beam_masses.masses_of_beams,
         sections.shear_factors,
         sections.round_cantilever_modes,
         small_systems.damped_oscillator,

@@ -1,4 +1,8 @@
-"""Executive control: the solution sequence; everything else is passed over."""
+"""Executive control: the solution sequence, and the one system cell that is looked at.
+
+The NASTRAN statement sets system cells by name or number. BARMASS, cell 398, gives CBAR
+the mass of CBEAM; no other cell changes anything here.
+"""
 
 import re
 from collections.abc import Iterable
@@ -53,11 +57,24 @@ OLDER: dict[str, int] = {
 _DMAP = frozenset({"ALTER", "COMPILE", "ENDALTER", "MALTER", "LINK", "SUBDMAP"})
 
 
+# System cells that change an answer, by all their names.
+_CELLS = {"BARMASS": "BARMASS", "SYSTEM(398)": "BARMASS"}
+_CELL = re.compile(r"([A-Z]\w*(?:\s*\(\s*\d+\s*\))?)\s*=\s*([^\s,=]+)", re.I)
+
+
 @dataclass
 class Executive:
-    """Result of reading the section."""
+    """Result of reading the section.
+
+    Attributes:
+        sol: number of the solution, 0 where there is none.
+        statements: all, without comments.
+        cells: system cells that are looked at, as parameters of the deck.
+        problems, notices: what was wrong or is worth saying.
+    """
 
     sol: int = 0
+    cells: dict[str, int] = field(default_factory=dict)
     statements: tuple[str, ...] = ()
     problems: list[str] = field(default_factory=list)
     notices: list[str] = field(default_factory=list)
@@ -77,6 +94,8 @@ def read_executive(lines: Iterable[Line]) -> Executive:
         dmap = dmap or first in _DMAP
         if line.missing:
             missing.append(text)
+        if first == "NASTRAN":
+            _read_cells(text, f"{line.file}:{line.number}", result)
         match = _SOL.match(text)
         if match is None or result.sol:
             continue
@@ -102,6 +121,26 @@ def read_executive(lines: Iterable[Line]) -> Executive:
         )
     result.statements = tuple(statements)
     return result
+
+
+def _read_cells(text: str, place: str, result: Executive) -> None:
+    """System cells of a NASTRAN statement."""
+    unused = []
+    for name, value in _CELL.findall(text):
+        cell = _CELLS.get(re.sub(r"\s", "", name).upper())
+        if cell is None:
+            unused.append(f"{name}={value}")
+        elif re.fullmatch(r"[+-]?\d+", value):
+            result.cells[cell] = int(value)
+        else:
+            result.problems.append(
+                f"{place}: NASTRAN {name}: found {value}, expected an integer"
+            )
+    if unused:
+        result.notices.append(
+            f"{place}: NASTRAN {', '.join(unused)}: system cells are passed over, but "
+            "for BARMASS"
+        )
 
 
 def _unknown(place: str, name: str, *, own: bool) -> str:

@@ -10,6 +10,7 @@ DEFAULTS: dict[str, Value] = {
     "ALPHA2": 0.0,
     "AUTOSPC": "YES",
     "BAILOUT": 0,
+    "BARMASS": 0,  # a system cell: of the NASTRAN statement
     "CB1": 1.0,
     "CB2": 1.0,
     "CK1": 1.0,

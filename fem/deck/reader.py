@@ -118,6 +118,7 @@ def read_deck(
         set_initial_values(bulk.cards, ignore, problems, notices)
     has_parts = bool(sections.superelements)
     deck = _deck(path, bulk, case, ignore, problems, notices, partial=has_parts)
+    deck = replace(deck, params={**deck.params, **executive.cells})
     if any(c.initial_temperature or c.temperature for c in case.subcases):
         problems += [
             f"{card.place}: {card.name} with TEMPERATURE in the case control: "

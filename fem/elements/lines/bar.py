@@ -60,9 +60,15 @@ class BarSection:
 
 @dataclass(frozen=True, kw_only=True)
 class Bar(MassInSection, LineBlock):
-    """All CBAR elements; 12 freedoms, basic axes."""
+    """All CBAR elements; 12 freedoms, basic axes.
+
+    Attributes:
+        section: of PBAR.
+        mass_of_beam: system cell BARMASS, see `beam_mass`.
+    """
 
     section: BarSection
+    mass_of_beam: bool = False
 
     property_card = "PBAR"
 
@@ -70,11 +76,12 @@ class Bar(MassInSection, LineBlock):
         return bar_stiffness(self.geometry.length, self.section, self.material)
 
     def mass(self, *, coupled: bool) -> Float64:
-        length = self.geometry.length
-        line = _line_mass(self.material.rho * self.section.a + self.section.nsm)
+        length, s, rho = self.geometry.length, self.section, self.material.rho
+        torsion = rho * (s.i1 + s.i2) * self.mass_of_beam
+        line = _line_mass(rho * s.a + s.nsm, torsion)
         if not coupled:
             return congruence(self._map, lumped_mass(length, line))
-        at_ends = coupled_mass(length, line)
+        at_ends = coupled_mass(length, line, axial_mean=not self.mass_of_beam)
         return congruence(self._condensed[1] @ self._map, at_ends)
 
     def preload_section(self) -> tuple[Float64, Float64]:
@@ -252,6 +259,7 @@ def read_cbar(deck: "Deck", points: Points) -> list[Bar]:
             pid=rows["pid"].to_numpy(np.int64),
             geometry=place_lines(rows, "CBAR", points),
             section=_sections(pbar),
+            mass_of_beam=deck.number("BARMASS") > 0,
             material=isotropic(deck, pbar, "PBAR"),
             released=released,
         )
@@ -269,16 +277,16 @@ def _sections(pbar: pd.DataFrame) -> BarSection:
     )
 
 
-def _line_mass(per_length: Float64) -> LineMass:
+def _line_mass(per_length: Float64, torsion: Float64) -> LineMass:
     x, weight = _on_unit(_GAUSS_4, len(per_length))
-    zero = np.zeros_like(x)
+    everywhere = np.ones_like(x)
     return LineMass(
         x=x,
         weight=weight,
-        mass=np.repeat(per_length[:, None], x.shape[1], axis=1),
-        y=zero,
-        z=zero,
-        torsion=zero,
+        mass=per_length[:, None] * everywhere,
+        y=np.zeros((len(x), 2)),
+        z=np.zeros((len(x), 2)),
+        torsion=torsion[:, None] * everywhere,
     )
 
 

@@ -199,16 +199,16 @@ def line_masses(section: BeamSection, material: Isotropic) -> tuple[LineMass, Li
         x=section.x,
         weight=section.weight,
         mass=rho * v["a"],
-        y=v["y"],
-        z=v["z"],
+        y=section.ends["y"],
+        z=section.ends["z"],
         torsion=rho * (v["i1"] + v["i2"]),
     )
     other = LineMass(
         x=section.x,
         weight=section.weight,
         mass=v["nsm"],
-        y=v["my"],
-        z=v["mz"],
+        y=section.ends["my"],
+        z=section.ends["mz"],
         torsion=v["nsi"],
     )
     return structural, other

@@ -207,3 +207,22 @@ def test_equal_signs_in_a_card_with_its_name_copy_the_card_before(read):
     bars = deck.cards["PBAR"].set_index("pid")
     assert bars.loc[8, "j"] == bars.loc[7, "j"] == 0.03
     assert deck.cards["MAT1"].set_index("mid").loc[4, "e"] == 1e7
+
+
+def test_system_cells_are_named_but_for_the_one_that_counts(tmp_path):
+    path = tmp_path / "cells.bdf"
+    path.write_text(
+        "NASTRAN BARMASS=1, SYSTEM(319) = 1\nSOL 103\nCEND\nBEGIN BULK\n"
+        "GRID,1\nCONM2,1,1,,2.\nENDDATA\n"
+    )
+    deck = read_deck(path)
+    assert deck.number("BARMASS") == 1
+    (notice,) = [n for n in deck.notices if "NASTRAN" in n]
+    assert "cells.bdf:1: NASTRAN SYSTEM(319)=1: system cells are passed over" in notice
+
+
+def test_a_system_cell_is_a_number(tmp_path):
+    path = tmp_path / "cells.bdf"
+    path.write_text("NASTRAN SYSTEM(398)=YES\nSOL 103\nCEND\nBEGIN BULK\nENDDATA\n")
+    with pytest.raises(InputError, match="found YES, expected an integer"):
+        read_deck(path)
