@@ -5,9 +5,9 @@ counted between those across it, with a uniform stress; a closed section twists 
 Bredt's formula, an open one by the sum of length times thickness cubed over three. NX
 Nastran uses it for all its releases; MSC Nastran where MDLPRM,TWBRBML,1 asks for it and
 in older releases, and finite elements otherwise (remark 10 of PBARL in its guide of
-2022): with these, ROD has 0.857 and TUBE its elastic value (results in TACS's comparison
-of beams), which moves the end of a cantilever of ten diameters by 3e-4. `SOURCES` says
-for each type where its values were read; the types without an entry are left to the
+2022). With these, ROD has 0.857 and TUBE its elastic value (results in TACS's study
+of beams), which moves the end of a cantilever of ten diameters by 3e-4. `SOURCES`
+says for each type where its values were read; types without an entry are left to the
 finite elements of `analysis.py`, as MSC has them.
 """
 
