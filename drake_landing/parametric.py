@@ -23,7 +23,7 @@ from fem.errors import InputError, nearest
 
 if TYPE_CHECKING:
     from drake_landing.gears.data import LandingGear
-    from drake_landing.parts.places import Places
+    from drake_landing.places import Places
     from fem.model.structure import Structure
 
 GROUP = "drake_landing.aircraft"

@@ -18,7 +18,7 @@ from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 
 if TYPE_CHECKING:
-    from drake_landing.parts.places import Places
+    from drake_landing.places import Places
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,9 +15,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.parts.cuts import Beam, Cutter, outward_axis
+from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.section_point import Crossing, crossing
+from drake_landing.places import Beam, outward_axis
 from fem.model.structure import Structure
 from fem.model.weight import rigid_modes
 

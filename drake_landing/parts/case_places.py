@@ -13,10 +13,10 @@ from drake_landing.parts.branches import (
     named_apart,
     part_name,
 )
-from drake_landing.parts.cuts import ANY, EVERYWHERE, Beam, Cutter, axis_name
+from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import Inventory
-from drake_landing.parts.places import Panel, Places
 from drake_landing.parts.section_point import crossing
+from drake_landing.places import ANY, EVERYWHERE, Beam, Panel, Places, axis_name
 from fem.errors import InputError, nearest
 from fem.model.structure import Structure
 

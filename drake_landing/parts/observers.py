@@ -9,17 +9,12 @@ import pandas as pd
 import scipy.sparse as sp
 
 from drake_landing.landing.handover import AttachmentLoads
-from drake_landing.parts.cuts import (
-    Beam,
-    BeamCuts,
-    Cutter,
-    mean_of_three,
-)
+from drake_landing.parts.cuts import BeamCuts, Cutter, mean_of_three
 from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.monitors import Station, stations
-from drake_landing.parts.places import Places
 from drake_landing.parts.stress import Stresses, stresses
 from drake_landing.parts.stress_observer import Snapshot, StressWatch
+from drake_landing.places import Beam, Places
 from fem.model.structure import Structure
 from fem.response.observation import Observation, Observer
 

@@ -18,7 +18,6 @@ from drake_landing.parts.case_places import places_of
 from drake_landing.parts.cuts import Cutter
 from drake_landing.parts.inventory import Inventory, inventory
 from drake_landing.parts.observers import PartsFound, PartsWatch
-from drake_landing.parts.places import Places
 from drake_landing.parts.slices import (
     Balanced,
     balanced,
@@ -26,6 +25,7 @@ from drake_landing.parts.slices import (
     slice_loads,
     static_slices,
 )
+from drake_landing.places import Places
 from drake_landing.results.stages import Spent, Stages, Timed
 from drake_landing.transient.cached import Response, kept_response, response_key
 from drake_landing.transient.extremes import OfFirstCase, element_envelopes

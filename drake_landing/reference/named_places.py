@@ -3,8 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.parts.cuts import ANY, Beam
-from drake_landing.parts.places import Panel, Places
+from drake_landing.places import ANY, Beam, Panel, Places
 from drake_landing.reference.d150.facts import facts, table
 from drake_landing.reference.d150.limit_load import LOAD_FACTOR, applied_loads
 from drake_landing.reference.d150.reference_axis import reference_nodes

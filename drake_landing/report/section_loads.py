@@ -7,8 +7,9 @@ import numpy as np
 import pandas as pd
 
 from drake_landing.parts import tables
-from drake_landing.parts.cuts import NAMED, axis_name
+from drake_landing.parts.cuts import NAMED
 from drake_landing.parts.observers import PartsFound
+from drake_landing.places import axis_name
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, table_block
 

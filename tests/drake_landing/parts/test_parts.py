@@ -8,10 +8,9 @@ import pytest
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.reading import parse_case
 from drake_landing.landing.handover import AttachmentLoads
-from drake_landing.parts.cuts import ANY, Beam, Cutter, mean_of_three
+from drake_landing.parts.cuts import Cutter, mean_of_three
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.observers import PartsFound, PartsWatch
-from drake_landing.parts.places import Places
 from drake_landing.parts.slices import (
     Slices,
     balanced,
@@ -25,6 +24,7 @@ from drake_landing.parts.tables import (
     component_table,
     worst_elements,
 )
+from drake_landing.places import ANY, Beam, Places
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.transient.practices import HYBRID, RIGID, STATIC, compare_practices
 from drake_landing.transient.response import transient_response

@@ -14,9 +14,10 @@ import numpy as np
 import pytest
 
 from drake_landing.parts.branches import beams_of_branches
-from drake_landing.parts.cuts import Beam, BeamCuts, Cutter
+from drake_landing.parts.cuts import BeamCuts, Cutter
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.slices import balanced
+from drake_landing.places import Beam
 from fem.deck.reader import read_deck
 from fem.model.structure import Structure
 from fem.recovery.elements import element_tables

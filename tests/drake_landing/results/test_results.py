@@ -16,7 +16,7 @@ from drake_landing.landing.history import (
     gear_peaks,
 )
 from drake_landing.parts.observers import CaseFound, PartsFound
-from drake_landing.parts.places import Places
+from drake_landing.places import Places
 from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.provenance import Provenance
 from fem.files.atomic import write_aside
