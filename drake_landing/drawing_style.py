@@ -3,6 +3,8 @@
 from contextlib import AbstractContextManager
 
 from matplotlib import style
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogFormatter
 
 
 def plain_style() -> AbstractContextManager[None]:
@@ -12,3 +14,12 @@ def plain_style() -> AbstractContextManager[None]:
     for one, includes any file.
     """
     return style.context(["default", {"text.parse_math": False}])
+
+
+def plain_ticks(figure: Figure) -> None:
+    """Decades as plain numbers: nothing is mathematics here."""
+    for axes in figure.axes:
+        for axis in (axes.xaxis, axes.yaxis):
+            if axis.get_scale() == "log":
+                axis.set_major_formatter(LogFormatter())
+                axis.set_minor_formatter(LogFormatter(labelOnlyBase=False))

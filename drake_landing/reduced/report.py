@@ -125,22 +125,26 @@ def draw_errors(path: Path, tables: Mapping[str, pd.DataFrame]) -> None:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(8, 4.5), layout="constrained")
-    FigureCanvasAgg(figure)
-    axes = figure.add_subplot()
-    for (name, table), marker in zip(tables.items(), "osv^Dx+*"):
-        table = table[table.mac >= PAIRED]
-        error = np.maximum(100 * table.error.abs(), 1e-10)
-        axes.semilogy(
-            table.full_hz,
-            error,
-            marker,
-            label=name.replace("$", r"\$"),
-            ms=4,
-            alpha=0.8,
-        )
-    axes.set_xlabel("frequency of the full model, Hz")
-    axes.set_ylabel("frequency error, %")
-    axes.grid(True, which="major", alpha=0.4)
-    axes.legend()
-    write_aside(path, lambda part: figure.savefig(part, dpi=150, format="png"))
+    from drake_landing.drawing_style import plain_style, plain_ticks
+
+    with plain_style():
+        figure = Figure(figsize=(8, 4.5), layout="constrained")
+        FigureCanvasAgg(figure)
+        axes = figure.add_subplot()
+        for (name, table), marker in zip(tables.items(), "osv^Dx+*"):
+            table = table[table.mac >= PAIRED]
+            error = np.maximum(100 * table.error.abs(), 1e-10)
+            axes.semilogy(
+                table.full_hz,
+                error,
+                marker,
+                label=name,
+                ms=4,
+                alpha=0.8,
+            )
+        axes.set_xlabel("frequency of the full model, Hz")
+        axes.set_ylabel("frequency error, %")
+        axes.grid(True, which="major", alpha=0.4)
+        axes.legend()
+        plain_ticks(figure)
+        write_aside(path, lambda part: figure.savefig(part, dpi=150, format="png"))

@@ -15,9 +15,8 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatter
 
-from drake_landing.drawing_style import plain_style
+from drake_landing.drawing_style import plain_style, plain_ticks
 from fem.files.escaping import attribute
 
 Float64 = npt.NDArray[np.float64]
@@ -84,7 +83,7 @@ def svg(figure: Figure, label: str) -> str:
         label: what it shows, for readers that do not see it.
     """
     out = io.StringIO()
-    _plain_ticks(figure)
+    plain_ticks(figure)
     with plain_style(), mpl.rc_context(_STYLE), warnings.catch_warnings():
         # The page's fonts have what this one has not.
         warnings.filterwarnings("ignore", "Glyph .* missing")
@@ -99,15 +98,6 @@ def svg(figure: Figure, label: str) -> str:
     text = re.sub(r'(xlink:href="#|url\(#)', rf"\1{mark}", text)
     shown = attribute(label)
     return text.replace("<svg", f'<svg role="img" aria-label="{shown}"', 1)
-
-
-def _plain_ticks(figure: Figure) -> None:
-    """Decades as plain numbers: nothing is mathematics here."""
-    for axes in figure.axes:
-        for axis in (axes.xaxis, axes.yaxis):
-            if axis.get_scale() == "log":
-                axis.set_major_formatter(LogFormatter())
-                axis.set_minor_formatter(LogFormatter(labelOnlyBase=False))
 
 
 def hash_of(text: str) -> int:
