@@ -272,8 +272,8 @@ def plates_that_buckle() -> list[Row]:
     for card, meshes in (
         ("CQUAD4", (4, 8, 16)),
         ("CTRIA3", (4, 8)),
-        ("CQUADR", (8, 16)),
-        ("CTRIAR", (8,)),
+        ("CQUADR", (8, 16, 32)),
+        ("CTRIAR", (8, 16)),
         ("CQUAD8", (4, 8)),
         ("CTRIA6", (4, 8)),
     ):
