@@ -3,10 +3,12 @@
 from dataclasses import replace
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
 import fem
+from benchmarks.suite import grid_forces
 from benchmarks.suite.__main__ import summary
 from benchmarks.suite.compare import differences
 from benchmarks.suite.decks import decks, judge
@@ -114,3 +116,32 @@ def test_negative_load_factors_are_no_rounding():
     )
     (found,) = differences(ours, theirs)
     assert found.value == pytest.approx(0.25)
+
+
+def test_an_element_with_another_stiffness_is_found_by_its_forces(
+    tmp_path, monkeypatch
+):
+    """Grid point forces under the displacements of a run, in frames of their own."""
+    loaded = DECK.replace("SOL 103\nCEND\nMETHOD = 1", "SOL 101\nCEND\nLOAD = 2")
+    loaded = loaded.replace("SPC = 1", "SPC = 1\nDISP = ALL\nGPFORCE = ALL")
+    loaded = loaded.replace("GRID,3,,2.", "GRID,3,,2.,0.,0.,5\nFORCE,2,3,,1.,1.,2.,3.")
+    loaded = loaded.replace("EIGRL,1,,,3", "CORD2R,5,,0.,0.,0.,0.,1.,1.,+\n+,1.")
+    path = tmp_path / "deck.bdf"
+    path.write_text(loaded)
+    deck = fem.read_deck(path)
+    with h5py.File(run_deck(deck, tmp_path / "deck.h5")) as file:
+        u = np.asarray(file["static/1/displacement"]).ravel()
+        group = file["static/1/grid_point_force"]
+        names = [group[n][()] for n in ("grid_id", "element_id", "force")]
+    forces: dict[int, dict[int, np.ndarray]] = {}
+    for grid, element, row in zip(*names):
+        if element > 0:
+            forces.setdefault(int(element), {})[int(grid)] = row
+    monkeypatch.setattr(grid_forces, "_states", lambda *_: [(u, forces)])
+    same = grid_forces.compared(Structure(deck), path)
+    assert same.keys() == {(1, "CBAR"), (2, "CBAR")}
+    assert max(same.values()) < 1e-9
+    softer = loaded.replace("CBAR,2,1", "CBAR,2,2")
+    path.write_text(softer.replace("PBAR,1", "PBAR,2,1,1.-4,2.-9,2.-9,1.-9\nPBAR,1"))
+    other = grid_forces.compared(Structure(fem.read_deck(path)), path)
+    assert other[1, "CBAR"] < 1e-9 < 0.1 < other[2, "CBAR"]
