@@ -1,10 +1,14 @@
 """Pictures look alike on every machine, and in every folder."""
 
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 
+import numpy as np
 from matplotlib import style
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogFormatter
+
+_MOST_DECADES = 3.5  # of a logarithmic axis with 2 and 5 beside 1
 
 
 def plain_style() -> AbstractContextManager[None]:
@@ -17,9 +21,18 @@ def plain_style() -> AbstractContextManager[None]:
 
 
 def plain_ticks(figure: Figure) -> None:
-    """Decades as plain numbers: nothing is mathematics here."""
+    """Logarithmic axes with 1, 2, 5 as plain numbers: nothing is mathematics here."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
             if axis.get_scale() == "log":
-                axis.set_major_formatter(LogFormatter())
-                axis.set_minor_formatter(LogFormatter(labelOnlyBase=False))
+                label = _labels(axis)
+                axis.set_major_formatter(label)
+                axis.set_minor_formatter(label)
+
+
+def _labels(axis: Axis) -> Callable[[float, int], str]:
+    """Of a logarithmic axis: fewer digits, the more decades it has."""
+    low, high = axis.get_view_interval()
+    decades = float(np.log10(high / low))
+    digits = "1" if decades > _MOST_DECADES else "125" if decades > 1.0 else "123456789"
+    return lambda x, _: f"{x:g}" if f"{x:.1e}"[0] in digits else ""

@@ -302,7 +302,7 @@ def _screening_text(result: CampaignResult) -> str:
     return (
         f"{m} landings drawn at random were integrated directly. Differences over "
         "the component's largest stress in the same landing, all elements; the next "
-        "landing drawn likewise stays below `worst` with a probability of "
+        "landing drawn likewise stays below the worst with a probability of "
         f"{m}/{m + 1}. Elements below {MATTERS:.0%} of their component's largest "
         "stress play no part "
         "in the choice of what is confirmed."

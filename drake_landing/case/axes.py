@@ -38,6 +38,20 @@ def deck_axes(R_AB: Float64) -> str:
     return ", ".join(f"{name} {way}" for name, way in axis_words(R_AB).items())
 
 
+def moment_words(R_AB: Float64) -> str:
+    """What positive moments about the axes of B turn, by the right hand."""
+    turns = (
+        ("the starboard side up", "the port side up"),
+        ("the nose up", "the nose down"),
+        ("the nose to port", "the nose to starboard"),
+    )
+    said = []
+    for name, column in zip("xyz", R_AB.T):
+        at = int(np.abs(column).argmax())
+        said.append(f"M{name} {turns[at][int(column[at] < 0.0)]}")
+    return ", ".join(said)
+
+
 def vertical_axis(R_AB: Float64) -> str:
     """The axis of B that is vertical in level attitude: x, y or z."""
     return "xyz"[int(np.abs(R_AB[2]).argmax())]

@@ -153,8 +153,16 @@ class Scenario(Section):
     @property
     def story(self) -> str:
         """What the aircraft does, e.g. `touched down at 3.05 m/s sink rate ...`."""
-        angles = {"pitch": self.pitch, "roll": self.roll, "yaw": self.yaw}
-        turned = [f"{name} {value:g}°" for name, value in angles.items() if value]
+        angles = {
+            "pitch": (self.pitch, "nose up", "nose down"),
+            "roll": (self.roll, "starboard wing down", "port wing down"),
+            "yaw": (self.yaw, "nose to starboard", "nose to port"),
+        }
+        turned = [
+            f"{name} {abs(value):g}° {down if value < 0.0 else up}"
+            for name, (value, up, down) in angles.items()
+            if value
+        ]
         if self.start == "rolling":
             parts = [f"rolled at {self.forward_speed:g} m/s"]
         else:

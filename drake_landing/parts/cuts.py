@@ -217,7 +217,11 @@ def envelope_table(cuts: BeamCuts, time: Float64, loads: Float64) -> pd.DataFram
     named = cuts.named(loads)
     low, high = named.argmin(axis=0), named.argmax(axis=0)
     beam, rows = cuts.beam, []
-    acts = [axis_name(v) for v in (beam.lift, beam.across, beam.direction)]
+    # In words: spreadsheets would compute "-x".
+    acts = [
+        axis_name(v).replace("-", "minus ")
+        for v in (beam.lift, beam.across, beam.direction)
+    ]
     for i, station in enumerate(beam.stations):
         for q, quantity in enumerate(NAMED):
             a, b = low[i, q], high[i, q]

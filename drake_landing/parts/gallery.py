@@ -67,8 +67,8 @@ def stress_pictures(
             f"Equivalent stress at {snapshot.time:.3f} s, when the element with the "
             f"{least} sees its worst ({worst.component}, element {worst.id}){upon}. "
             f"Displacements times {field.factor:g}, without the motion as a rigid "
-            f"body; colours end at {top / 1e6:.0f} MPa, near the largest but for 0.5 % "
-            "of the elements.",
+            f"body; the colour scale ends at {top / 1e6:.0f} MPa, which at most 0.5 % "
+            "of the elements exceed.",
         )
     )
     by_component = found.landing.stress.groupby("component").id

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from drake_landing.case.axes import deck_axes
+from drake_landing.case.axes import deck_axes, moment_words
 from drake_landing.report.axes_figure import axes_sketch
 from drake_landing.report.page import Block, Section, pairs_block
 from drake_landing.results.whole_mass import whole_mass
@@ -25,7 +25,9 @@ def axes_section(result: "ProcessResult") -> Section:
         f"deck's basic frame ({deck_axes(R_AB)}), which is fixed to the airframe and "
         "pitches, rolls and yaws with it, and in SI units (m, kg, s, N, Pa; kN and MPa "
         "where a heading says so), whatever the units of the deck. Aft, starboard and "
-        "up are directions of the airframe, too; those of the runway are named. Loads, "
+        "up are directions of the airframe, too; those of the runway are named. "
+        "Moments are right-handed about their axes; positive ones that act on "
+        f"the airframe turn: {moment_words(R_AB)}. Loads, "
         "accelerations and stresses are increments to the steady flight before "
         "touchdown where nothing else is said; all are limit loads, without a factor. "
         "Accelerations are those of the motion: an accelerometer shows 1 g upward "

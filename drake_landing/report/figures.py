@@ -72,7 +72,7 @@ def struts_and_tires(history: LandingHistory) -> str:
                     factor * values,
                     SERIES[i % len(SERIES)],
                     words(gear),
-                    dashed=_repeats(series, gear),
+                    dashed=repeats(series, gear),
                 )
             titles = {
                 "stroke": "Shock-absorber stroke",
@@ -166,7 +166,8 @@ def energy(history: LandingHistory) -> str:
     with panels(1, 2, height=2.6) as (figure, grid):
         shares, rest = grid[0]
         for color, part in zip(SERIES, parts):
-            curve(shares, change.index, factor * change[part], color, part)
+            label = part.replace("tyre", "tire")  # the name in the result file
+            curve(shares, change.index, factor * change[part], color, label)
         finish(shares, "Change of energy since the start", unit)
         sink = history.figures["sink_energy"]
         curve(rest, table.index, table["balance"] / sink, INK)
@@ -189,7 +190,7 @@ def _mean_spin(history: LandingHistory, gear: str) -> pd.Series:
     return history.leg(gear, "spin") / len(history.wheels[gear])
 
 
-def _repeats(series: Mapping[str, pd.Series], name: str) -> bool:
+def repeats(series: Mapping[str, pd.Series] | pd.DataFrame, name: str) -> bool:
     """Whether an earlier series is nearly the same: its curve would hide this one."""
     size = max(float(series[name].abs().max()), 1e-12)
     for other, values in series.items():

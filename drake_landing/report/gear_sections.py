@@ -21,7 +21,8 @@ def gears_section(result: "ProcessResult") -> Section:
         text="Tire loads are those of the runway on all tires of a gear: vertical is "
         "normal to the runway, drag along it, aft. Stroke and force of a shock "
         "absorber are along its own axis, positive in compression. The wheels stand "
-        "still at touchdown and are spun up by the drag.",
+        "still at touchdown and are spun up by the drag. A gear in the air loads its "
+        "node by its own inertia.",
         blocks=[
             *_gear_peaks(result),
             Block(svg=figures.struts_and_tires(result.history)),
@@ -49,6 +50,7 @@ def _gear_peaks(result: "ProcessResult") -> Iterator[Block]:
     peaks[kilo] = peaks[kilo].where(peaks[kilo].abs() > 5e-3, 0.0)
     instants = result.gears.pivot(index="gear", columns="quantity", values="time")
     instants = instants.loc[peaks["gear"]].reset_index()
+    instants[kilo] = instants[kilo].where(peaks[kilo] != 0.0)
     yield table_block(
         peaks,
         heads,

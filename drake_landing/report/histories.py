@@ -18,6 +18,7 @@ from jinja2 import Environment, StrictUndefined
 from drake_landing.case.axes import deck_axes
 from drake_landing.landing.history import UNITS
 from drake_landing.parts.tables import root_histories
+from drake_landing.report.figures import repeats
 from drake_landing.results.units import unit_of
 from fem.arrays import Float64
 from fem.files.atomic import write_aside
@@ -47,7 +48,11 @@ def write_histories(path: Path, result: "ProcessResult") -> None:
             "title": title,
             "unit": unit,
             "curves": [
-                {"name": str(c), **_curve(table.index.to_numpy(), table[c], points)}
+                {
+                    "name": str(c),
+                    "dash": "dash" if repeats(table, c) else "solid",
+                    **_curve(table.index.to_numpy(), table[c], points),
+                }
                 for c in table.columns
             ],
         }

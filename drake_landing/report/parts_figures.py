@@ -157,7 +157,7 @@ def root_histories(
 
 def _part(name: str, where: str) -> str:
     """Name and cut, once where a part is named by its cut."""
-    return name if where in name else f"{name} at {where}"
+    return name if where in name else f"{name}, cut at {where}"
 
 
 def _without_rounding(named: Float64) -> Float64:

@@ -43,6 +43,7 @@ _FORMATS = {
     **dict.fromkeys(("x", "y", "z"), ".2f"),
     **{"time": ".3f", "allowed": ".0f", "margin": "+.2f"},
 }
+_NOUGHT = 1e-6  # of the largest: by symmetry, but for rounding
 
 
 def parts_sections(
@@ -276,11 +277,15 @@ def _equipment(result: "ProcessResult") -> Section:
         values, time = table.to_numpy(), result.loads.time
         worst = np.abs(values).argmax(axis=0)
         peaks = dict(zip(table.columns, zip(values.T, worst)))
+        nought = _NOUGHT * float(np.abs(values).max(initial=0.0))
         rows.append(
             {
                 "place": name.replace("_", " "),
                 **{axis: float(v[k]) for axis, (v, k) in peaks.items()},
-                **{f"t{axis}": float(time[k]) for axis, (_, k) in peaks.items()},
+                **{
+                    f"t{axis}": float(time[k]) if abs(v[k]) > nought else float("nan")
+                    for axis, (v, k) in peaks.items()
+                },
                 "spectrum": float(spectra[name][at]),
                 "hertz": float(SPECTRUM_HZ[at]),
             }

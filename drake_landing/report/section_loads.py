@@ -12,12 +12,11 @@ from drake_landing.parts.observers import PartsFound
 from drake_landing.places import axis_name
 from drake_landing.report import parts_figures as figures
 from drake_landing.report.page import Block, Section, table_block
+from drake_landing.results.verdict import mirrored
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult
 
-# Beams whose loads differ less are mirror images and are shown once.
-_ALIKE = 0.01
 _MINUS = "\N{MINUS SIGN}"  # no line is broken after it
 _SHARE = 0.1  # of shear or bending: smaller loads sideways are not drawn
 _NOUGHT = 1e-6  # of the largest of all parts: rounding
@@ -34,8 +33,8 @@ def section_loads(result: "ProcessResult") -> Section:
     drawn = {name: _drawn(found, name) for name in found.cuts}
     for name, cuts in found.cuts.items():
         loads = found.landing.sections[name]
-        named = np.abs(np.concatenate([d.of(loads) for d in drawn[name]], axis=-1))
-        twin = next((n for n, other in shown if _alike(named, other)), None)
+        named = np.concatenate([d.of(loads) for d in drawn[name]], axis=-1)
+        twin = next((n for n, other in shown if mirrored(named, other)), None)
         if twin is not None:
             left_out.append(f"{name} (the mirror image of {twin})")
             continue
@@ -68,8 +67,9 @@ def section_loads(result: "ProcessResult") -> Section:
         "fuselages are to starboard; they are drawn where they reach "
         f"{_SHARE:.0%} of the others. The axes in the deck stand in the table. "
         "Moments refer to a point of each cut, in the table: "
-        f"{_points_said(found)}. Shaded: extremes over time; dashed: when bending at "
-        "the cut below is largest. The equilibrium of the whole airframe is missed by "
+        f"{_points_said(found)}. Shaded: extremes over time; dashed: at the instant "
+        "when bending is largest at the cut whose histories follow. The equilibrium of "
+        "the whole airframe is missed by "
         f"{found.imbalance[0]:.0e} of the largest applied force and "
         f"{found.imbalance[1]:.0e} of the moment.{also} All six components at all "
         "cuts: results.h5, group parts/sections; extremes: section_loads.csv.",
@@ -133,10 +133,6 @@ def _points_said(found: PartsFound) -> str:
     if not lines:
         return centre
     return f"{centre}; of {', '.join(lines)} where its reference line meets the cut"
-
-
-def _alike(a: np.ndarray, b: np.ndarray) -> bool:
-    return a.shape == b.shape and bool(np.abs(a - b).max() <= _ALIKE * np.abs(b).max())
 
 
 def _section_table(

@@ -18,8 +18,8 @@ _LINES = {
     "landing_sol109.bdf": "deck of the direct transient, complete, in the deck's units",
     "airframe.bdf": "deck of the airframe that the program has written for this run",
     "results.h5": "all histories, section loads, extremes, case and provenance (HDF5)",
-    "gears.csv": "peaks per gear, largest magnitude with its sign; `time` in s, unit "
-    "of `peak` in `unit`",
+    "gears.csv": "peaks per gear, largest magnitude with its sign; their units in the "
+    "column unit",
     "attachment_loads.csv": "gear on airframe at the attachment nodes over time, "
     "deck's axes, multibody run",
     "tyres.csv": "each wheel over time: deflection, runway on tire (vertical, drag "
@@ -33,26 +33,26 @@ _LINES = {
     "accelerations_equipment.csv": "places of equipment over time, direct transient, "
     "deck's axes",
     "comparison.csv": "multibody against direct transient: peaks in m/s², errors over "
-    "the transient's values, `highest_hz` in Hz",
+    "the transient's values, last mode (highest_hz) in Hz",
     "section_loads.csv": "extremes of shear, bending, torsion at all cuts, the point "
-    "that moments refer to, unit in `unit`",
+    "that moments refer to, units in the column unit",
     "section_roots.csv": "section loads over time at the cut of each part that is "
     "looked at",
     "monitor_points.csv": "extremes of the deck's monitor points (MONPNT1, MONPNT3), "
-    "along the axes of their frame, unit in `unit`",
+    "along the axes of their frame, units in the column unit",
     "monitor_histories.csv": "the same over time",
     "worst_stresses.csv": "ten elements of each component with the least margin or the "
     "largest stress",
     "worst_elements.csv": "of each result quantity the ten elements that see most, "
-    "unit in `unit`",
+    "units in the column unit",
     "late_extremes.csv": "extremes in the last swing of the run; empty: none",
     "buckling.csv": "panels that buckle first in the static cases of the landing's "
     "instants: load factor, margin, place",
-    "practices.csv": "the same landing by three practices, unit in `unit`",
+    "practices.csv": "the same landing by three practices, units in the column unit",
     "stages.csv": "time and memory of each stage of the run",
     "pictures": "stress field at the instants of the largest stresses (PNG)",
     "report.pdf": "the report, printed",
-    README: "this text",
+    README: "these lines, and the units and axes of all files",
 }
 _SOMETIMES = ("airframe.bdf", "buckling.csv", "practices.csv", "report.pdf", "pictures",
               "monitor_points.csv", "monitor_histories.csv")  # fmt: skip

@@ -64,10 +64,10 @@ def _acceleration(result: "ProcessResult") -> str:
     way = axis_words(result.airframe.R_AB)[str(row["axis"])]
     where = f"{str(row['point']).replace('_', ' ')}, along {row['axis']}: {way}"
     low = peaks_below(result).set_index(["point", "axis"]).peak_low
-    below = f"below {result.airframe.highest_hz:.0f} Hz"
+    below = f"low-passed at {result.airframe.highest_hz:.0f} Hz:"
     return (
         f"{row['peak_fe']:z.2f} m/s² ({where}; {below} "
-        f"{low.loc[(row['point'], row['axis'])]:.2f}, multibody "
+        f"{low.loc[(row['point'], row['axis'])]:.2f}; multibody: "
         f"{row['peak_mbs']:z.2f} m/s²)"
     )
 

@@ -47,7 +47,9 @@ def truncation_line(result: "ProcessResult") -> str:
     """Modes, their errors, what choice would do, in one sentence."""
     n, hz = result.airframe.body.n, result.airframe.highest_hz
     errors, gears = point_errors(result), result.truncation.gears
-    text = f"{n} elastic modes up to {hz:.0f} Hz" if n else "rigid airframe"
+    text = (
+        f"{n} elastic mode{'s' * (n > 1)} up to {hz:.0f} Hz" if n else "rigid airframe"
+    )
     text += f": accelerations of the multibody model {_worst(errors, 'point')}"
     text += f", vertical gear loads expected to be {_worst(gears, 'gear')}"
     in_the_air = [g.name for g in result.aircraft.gears if g.name not in gears]

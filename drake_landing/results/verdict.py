@@ -10,6 +10,7 @@ from drake_landing.parts.tables import component_table
 from drake_landing.results.truncation import point_errors
 from drake_landing.results.whole_mass import whole_mass
 from drake_landing.transient.step_error import WARNED
+from fem.arrays import Float64
 from fem.model.differential import COARSE
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
 _FAIR = 0.15  # error above which a model is not called fair any more
 _BALANCE = 0.01  # of the sink energy
 _SHOWN = 3
+_ALIKE = 0.01  # of the largest: loads of mirror images
 
 
 def verdict(result: "ProcessResult") -> list[tuple[str, str]]:
@@ -71,6 +73,7 @@ def _share(error: float) -> str:
 
 def _gear_loads(result: "ProcessResult") -> str:
     """Peaks of each gear's tires."""
+    strokes = {g.name: g.shock_absorber.stroke for g in result.aircraft.gears}
     said = []
     for gear, own in result.gears.groupby("gear", sort=False):
         peaks = own.set_index("quantity").peak
@@ -78,11 +81,12 @@ def _gear_loads(result: "ProcessResult") -> str:
             continue
         name = str(gear).replace("_", " ")
         if not peaks["tyre_vertical"]:
-            said.append(f"{name} not on the ground")
+            said.append(f"{name} never on the ground")
             continue
         said.append(
             f"{name} {peaks['tyre_vertical'] / 1e3:z.1f} kN vertical, "
-            f"{peaks['tyre_drag'] / 1e3:z.1f} kN drag, {peaks['stroke']:.3f} m stroke"
+            f"{peaks['tyre_drag'] / 1e3:z.1f} kN drag, {peaks['stroke']:.3f} of "
+            f"{strokes[str(gear)]:.3f} m stroke"
         )
     return "; ".join(said) + " (peaks of the tires, runway axes)"
 
@@ -96,16 +100,27 @@ def _sections(result: "ProcessResult") -> Iterator[tuple[str, str]]:
         k, at = np.unravel_index(np.argmax(np.abs(bending)), bending.shape)
         value = bending[k, at]
         place = f"{cuts.beam.axis} = {cuts.beam.stations[at]:z.2f} m"
-        rows.append((abs(value), name, place, value, found.time[k]))
+        if not any(mirrored(bending, other) for *_, other in rows):
+            rows.append((abs(value), name, place, value, found.time[k], bending))
     rows.sort(key=lambda row: -row[0])
     said = [
-        f"{name if place in name else f'{name} at {place}'} {value / 1e3:z.1f} kN m "
-        f"({time:.3f} s)"
-        for _, name, place, value, time in rows[:_SHOWN]
+        f"{name if place in name else f'{name}, cut at {place}'}: {value / 1e3:z.1f} "
+        f"kN m ({time:.3f} s)"
+        for _, name, place, value, time, _ in rows[:_SHOWN]
     ]
     if said:
-        text = f"{'; '.join(said)}; of the cuts made, increments to steady flight"
+        text = (
+            f"{'; '.join(said)}; the largest of all cuts, mirror images once; about "
+            "the points under 'Section loads', increments to steady flight"
+        )
         yield "largest bending", text
+
+
+def mirrored(a: Float64, b: Float64) -> bool:
+    """Whether loads (t, ...) of two parts are so alike that one is shown for both."""
+    return a.shape == b.shape and bool(
+        np.abs(np.abs(a) - np.abs(b)).max() <= _ALIKE * np.abs(b).max()
+    )
 
 
 def _buckling(result: "ProcessResult") -> Iterator[tuple[str, str]]:
@@ -177,6 +192,7 @@ def _to_look_at(result: "ProcessResult") -> Iterator[str]:
     if len(result.late):
         count = len(result.late)
         yield f"{count} extremes in the last swing: a longer run may find more"
+    yield from _after_the_ground(result)
     missed = result.history.energy["balance"].abs().max()
     if missed > _BALANCE * result.history.figures["sink_energy"]:
         yield f"the energy audit misses {missed / 1e3:.1f} kJ"
@@ -186,3 +202,25 @@ def _to_look_at(result: "ProcessResult") -> Iterator[str]:
     if result.notices:
         count = len(result.notices)
         yield f"{count} notice{'s' * (count > 1)} at the end"
+
+
+def _after_the_ground(result: "ProcessResult") -> Iterator[str]:
+    """Whether the highest acceleration comes when all tires have left the runway."""
+    history, table = result.history, result.comparison
+    loads = [history.leg(gear, "vertical") for gear in history.strut]
+    last = max(
+        (float(f.index[f > 0.0].max()) for f in loads if f.max() > 0.0), default=0.0
+    )
+    highest = table.loc[table["peak_fe"].idxmax()]
+    point, axis = str(highest["point"]), str(highest["axis"])
+    at = float(result.response[point][axis].abs().idxmax())
+    if not at > last > 0.0:
+        return
+    strokes = [table["stroke"].loc[last:at] for table in history.strut.values()]
+    struck = any(s.max() > 0.0 >= s.min() for s in strokes if len(s))
+    yield (
+        f"the highest acceleration comes at {at:.3f} s, when no tire is on the runway "
+        f"any more (since {last:.3f} s)"
+        + ": shock absorbers strike their extension stops"
+        * struck
+    )

@@ -18,6 +18,7 @@ from drake_landing.report.page import (
     write_page,
 )
 from drake_landing.report.pdf import browser, write_pdf
+from drake_landing.report.plots import panels, svg
 from fem.errors import InputError
 
 _MEASURE = """<script>addEventListener("load", () => {
@@ -25,8 +26,12 @@ _MEASURE = """<script>addEventListener("load", () => {
   const wide = [...document.body.querySelectorAll("*")].filter(e => {
     const box = e.getBoundingClientRect();
     return !(e instanceof SVGElement) && getComputedStyle(e).position != "absolute"
+      && !e.parentElement.closest(".picture")
       && box.width > 0 && (box.right > width + 1 || box.left < -1);
   });
+  // Pictures are drawn 691 px wide: narrower, their words could not be read.
+  wide.push(...[...document.querySelectorAll("figure svg")]
+    .filter(e => e.getBoundingClientRect().width < 650));
   document.title = document.documentElement.scrollWidth <= width
     ? wide.map(e => e.tagName + e.textContent.slice(0, 30)).join("|") : "scrolls";
 });</script>"""
@@ -42,6 +47,8 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
     )
     heads = {name: head for head, name in columns.items()}
     path = tmp_path_factory.mktemp("page") / "report.html"
+    with panels(1, 3) as (figure, _):
+        picture = svg(figure, "three panels")
     write_page(
         path,
         Page(
@@ -59,6 +66,7 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
                         table_block(table, heads, {}, "Folded", fold=True),
                         Block(caption="Text", pre="x" * 300 + "\nlast of the folded"),
                         Block(items=["notice " * 40]),
+                        Block(svg=picture, caption="Picture"),
                     ],
                 )
             ],
