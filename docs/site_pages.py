@@ -82,6 +82,11 @@ def on_post_page(output: str, **_: object) -> str:
     return output
 
 
+def on_post_template(output: str, template_name: str, **_: object) -> str:
+    """The same for the page that is shown where none is."""
+    return on_post_page(output) if template_name == "404.html" else output
+
+
 def on_page_markdown(markdown: str, **_: object) -> str:
     """Pages link files of the repository that the site does not have: their names."""
     return _LINK.sub(_kept, markdown)

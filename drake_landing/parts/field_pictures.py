@@ -28,6 +28,7 @@ Float64 = npt.NDArray[np.float64]
 Int64 = npt.NDArray[np.int64]
 
 SIZE = (1500, 900)  # pixels
+_CORNER = 0.2  # of the picture, for its axes
 _DEFORMATION = 0.05  # of the airframe's size: largest displacement in a picture
 _MODE = 0.006  # the same in that of a buckling mode, whose place is small
 _NEAR = 0.02  # likewise its close-up
@@ -222,8 +223,9 @@ def draw_field(
         plotter.add_points(
             place, color="magenta", point_size=22, render_points_as_spheres=True
         )
-    plotter.add_axes(color="black", line_width=3)  # of the deck's basic frame
-    _look(plotter, field, close=close, up=up, aft=aft)
+    seen = _look(plotter, field, close=close, up=up, aft=aft)
+    # Of the deck's basic frame.
+    plotter.add_axes(color="black", line_width=3, viewport=emptiest_corner(seen))
     try:
         with written_aside(path) as part:
             plotter.screenshot(str(part))
@@ -241,10 +243,32 @@ def _outline(corners: Float64) -> "pyvista.PolyData":
     return pyvista.PolyData(corners, lines=np.array(ring))
 
 
+def emptiest_corner(seen: Float64) -> tuple[float, float, float, float]:
+    """Left, lower, right, upper end of the corner with the fewest points, from 0 to 1.
+
+    Args:
+        seen: (n, 2) places in the picture, to the right and up, from 0 to 1.
+    """
+    far = 1.0 - _CORNER
+    corners = [
+        (x, y, x + _CORNER, y + _CORNER)
+        for x, y in ((0.0, 0.0), (0.0, far), (far, far), (far, 0.0))
+    ]
+
+    def inside(box: tuple[float, float, float, float]) -> int:
+        return int(((seen >= box[:2]) & (seen <= box[2:])).all(axis=1).sum())
+
+    return min(corners, key=inside)
+
+
 def _look(
     plotter: "pyvista.Plotter", field: Field, *, close: bool, up: Float64, aft: Float64
-) -> None:
-    """From ahead, aside and above; a close-up from outside onto its element."""
+) -> Float64:
+    """From ahead, aside and above; a close-up from outside onto its element.
+
+    Returns:
+        (n, 2) where the points are in the picture, to the right and up, from 0 to 1.
+    """
     size = float(np.ptp(field.p, axis=0).max())
     worst = field.worst.mean(axis=0)
     toward = _outside(field, up=up, aft=aft, near=field.near * size) if close else None
@@ -268,6 +292,8 @@ def _look(
     plotter.camera.position = tuple(focus + 3.0 * size * toward)
     plotter.camera.parallel_scale = half
     plotter.reset_camera_clipping_range()
+    center = np.array([focus @ right, focus @ np.cross(toward, right)])
+    return 0.5 + 0.5 * (seen - center) / (half * np.array([SIZE[0] / SIZE[1], 1.0]))
 
 
 def _outside(field: Field, *, up: Float64, aft: Float64, near: float) -> Float64 | None:

@@ -17,13 +17,20 @@ def gear_echo(gears: Sequence[LandingGear], source: str) -> Block:
         source: where the data are from.
     """
     rows: dict[str, dict[str, str]] = {}
+    order: list[str] = []
     for i, gear in enumerate(gears):
+        at = 0  # what only a later gear has stands where the data have it
         for path, meaning, value in _fields(gear):
-            row = rows.setdefault(path, {"field": path, "meaning": meaning})
-            row[f"gear{i}"] = value
+            if path not in rows:
+                rows[path] = {"field": path, "meaning": meaning}
+                order.insert(at, path)
+            at = order.index(path) + 1
+            rows[path][f"gear{i}"] = value
     heads = {"field": "field", "meaning": "meaning and unit"}
     heads |= {f"gear{i}": g.name.replace("_", " ") for i, g in enumerate(gears)}
-    table = pd.DataFrame(list(rows.values()), columns=list(heads)).fillna("–")
+    table = pd.DataFrame([rows[path] for path in order], columns=list(heads)).fillna(
+        "–"
+    )
     caption = f"Gear data as used, in the deck's basic frame (B); from {source}"
     return table_block(table, heads, {}, caption, fold=True)
 

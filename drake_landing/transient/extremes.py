@@ -14,6 +14,7 @@ from fem.response.observation import Chunk, Observer, StateChunk
 Float64 = npt.NDArray[np.float64]
 
 KINDS = ("force", "stress")
+_NO_LOAD = ("fibre", "angle")  # columns
 
 
 def element_envelopes(structure: Structure) -> list[Envelope]:
@@ -61,7 +62,8 @@ def worst_elements(envelopes: Sequence[Envelope], count: int = 5) -> pd.DataFram
     Returns:
         Rows `result` (force or stress), `type`, `column`, `element`, `value` (the
         extreme of larger magnitude, units of the deck), `time` (s); at most `count` per
-        type and column, columns that stay zero left out.
+        type and column, columns that stay zero left out, and those that are no force
+        or stress: where fibres lie, angles of principal axes.
     """
     rows = []
     for envelope in envelopes:
@@ -73,6 +75,8 @@ def worst_elements(envelopes: Sequence[Envelope], count: int = 5) -> pd.DataFram
             envelope.time_of_largest,
         )
         for c, column in enumerate(envelope.table.columns):
+            if str(column).startswith(_NO_LOAD):
+                continue
             order = np.argsort(-np.abs(value[:, c]), kind="stable")[:count]
             rows += [
                 {
