@@ -1,7 +1,6 @@
 """`demo` and `run`: the whole process of a case, and its figures on the terminal."""
 
 import shlex
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -67,10 +66,20 @@ def run(
         _run(read_case(case), out, practices=practices, pdf=pdf)
 
 
-def _kept(case: "Case", folder: Path, out: Path | None, began: float) -> str:
-    """What a run leaves that began at a time (s of the epoch) and is interrupted."""
+def _landing_table(folder: Path) -> tuple[int, int] | None:
+    """Which table of a landing lies there, whatever clocks say of its age."""
     table = folder / "attachment_loads.csv"
-    landed = table.is_file() and table.stat().st_mtime >= began
+    if not table.is_file():
+        return None
+    found = table.stat()
+    return found.st_ino, found.st_mtime_ns
+
+
+def _kept(
+    case: "Case", folder: Path, out: Path | None, before: tuple[int, int] | None
+) -> str:
+    """What a run leaves that is interrupted; `before` it the table of a landing."""
+    landed = _landing_table(folder) not in (None, before)
     tables = f"; tables of the landing are in {folder}" if landed else ""
     again = "drake-landing demo"
     if Path(case.places.file).is_file():
@@ -86,10 +95,10 @@ def _run(
     from drake_landing.progress import reporter, told_when_interrupted
     from fem.files.folders import claim
 
-    began = time.time()
     folder = claim(out or default_folder(case), f"run {case.name}")
+    before = _landing_table(folder)
     with (
-        told_when_interrupted(lambda: _kept(case, folder, out, began)),
+        told_when_interrupted(lambda: _kept(case, folder, out, before)),
         reporter() as progress,
     ):
         result = run_case(case, folder, progress, practices=practices)

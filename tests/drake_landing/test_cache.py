@@ -1,7 +1,9 @@
 """The store finds what it knows, and never trusts what is damaged."""
 
+import itertools
 import json
 import os
+import time
 from pathlib import Path
 
 import numpy as np
@@ -138,6 +140,29 @@ def test_a_size_that_is_none_is_refused(text, monkeypatch) -> None:
     monkeypatch.setenv("DRAKE_LANDING_CACHE_GB", text)
     with pytest.raises(InputError, match="DRAKE_LANDING_CACHE_GB: found"):
         Cache.of_user()
+
+
+def test_clocks_that_jump_cost_time_alone(tmp_path: Path, monkeypatch) -> None:
+    """By years, while entries are written: they are found, or built anew."""
+    jumps = itertools.cycle([0.0, 1e10, 3e10, 1.0])
+    monkeypatch.setattr(time, "time", lambda: next(jumps))
+    first, other = Cache(tmp_path), Cache(tmp_path, limit_gb=1e-9)
+    monkeypatch.setattr(np, "save", _meanwhile(np.save, other))
+    wanted = Builder()()
+    for k in range(8):
+        found = first.arrays("modes", f"k{k % 3}", Builder())
+        assert all(np.array_equal(found[name], wanted[name]) for name in wanted)
+    assert not list(tmp_path.glob(".part-*"))
+
+
+def _meanwhile(save, other: Cache):
+    """Another process makes room, and takes what is being written for left over."""
+
+    def saved(file, values, **options):
+        save(file, values, **options)
+        other._make_room(keep=other.folder / "none")
+
+    return saved
 
 
 def test_not_a_number_is_never_kept(tmp_path: Path) -> None:
