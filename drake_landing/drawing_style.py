@@ -1,7 +1,8 @@
 """Pictures look alike on every machine, and in every folder."""
 
-from collections.abc import Callable
-from contextlib import AbstractContextManager
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 
 import numpy as np
 from matplotlib import style
@@ -11,13 +12,17 @@ from matplotlib.figure import Figure
 _MOST_DECADES = 3.5  # of a logarithmic axis with 2 and 5 beside 1
 
 
-def plain_style() -> AbstractContextManager[None]:
+@contextmanager
+def plain_style() -> Iterator[None]:
     """Matplotlib as it comes: no matplotlibrc counts, and `$` is no mathematics.
 
     Matplotlib reads one in the working directory, which may be somebody else's: TeX,
     for one, includes any file.
     """
-    return style.context(["default", {"text.parse_math": False}])
+    plain = style.context(["default", {"text.parse_math": False}])
+    with plain, warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")  # boxes stand there
+        yield
 
 
 def plain_ticks(figure: Figure) -> None:

@@ -7,6 +7,7 @@
 """
 
 import errno
+import io
 import os
 import signal
 import sys
@@ -37,6 +38,8 @@ def run_command(load: Callable[[], Callable[..., Any]], name: str) -> NoReturn:
     """
     # Workers take no modules from the working directory: it may be somebody else's.
     os.environ["PYTHONSAFEPATH"] = "1"
+    if isinstance(sys.stdout, io.TextIOWrapper):  # names may have what it cannot show
+        sys.stdout.reconfigure(errors="backslashreplace")
     status = exit_status(lambda **options: load()(**options), name)
     for number in _SIGNALS:  # nothing is left that could be interrupted
         signal.signal(number, signal.SIG_IGN)

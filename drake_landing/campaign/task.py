@@ -300,7 +300,7 @@ def _write_peaks(file: h5py.File, case: Case, history: LandingHistory) -> None:
         ("points", list(points), pd.Series(points, dtype=float), None, "m/s²"),
     ):
         group = file.create_group(name)
-        group.create_dataset("name", data=np.array(labels, dtype="S64"))
+        group.create_dataset("name", data=labels, dtype=h5py.string_dtype())
         _dataset(group, "peak", np.asarray(values, float), units)
         if times is not None:
             _dataset(group, "time", np.asarray(times, float), "s")

@@ -39,7 +39,7 @@ def write_grids_deck(path: Path, model: ReducedModel) -> None:
         case_control=["TITLE = REDUCED AIRFRAME"],
         sections=[grids, lines],
     ).text()
-    write_aside(path, lambda part: part.write_text(text, encoding="ascii"))
+    write_aside(path, lambda part: part.write_text(text, encoding="utf-8"))
 
 
 def deck_with_matrices(path: Path, model: ReducedModel) -> Deck:

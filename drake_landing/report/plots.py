@@ -5,7 +5,6 @@ Text stays text in the SVG, so the page's own font applies and words can be sear
 
 import io
 import re
-import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
@@ -84,9 +83,7 @@ def svg(figure: Figure, label: str) -> str:
     """
     out = io.StringIO()
     plain_ticks(figure)
-    with plain_style(), mpl.rc_context(_STYLE), warnings.catch_warnings():
-        # The page's fonts have what this one has not.
-        warnings.filterwarnings("ignore", "Glyph .* missing")
+    with plain_style(), mpl.rc_context(_STYLE):
         figure.savefig(out, format="svg", metadata={"Date": None}, transparent=True)
     text = out.getvalue()
     text = text[text.index("<svg") :]
