@@ -29,7 +29,8 @@ _AT_ROOT = {
 }
 # The search is a dialog without a name; code would scroll, by the mouse alone;
 # links in text differ by color alone; comments in code are too pale; wide tables, which
-# the theme wraps when the page is there, scroll by the mouse alone.
+# the theme wraps when the page is there, scroll by the mouse alone; drawings made of
+# characters must not be wrapped as code is.
 _PALE = ("comment", "operator", "punctuation", "generic", "variable")
 _STYLE = (
     "<style>.md-typeset :is(p,li,td) a{text-decoration:underline}"
@@ -38,12 +39,14 @@ _STYLE = (
     + "".join(f"--md-code-hl-{name}-color:#5c5c5c;" for name in _PALE)
     + "}</style></head>"
 )
-_FOCUSABLE_TABLES = (
-    '<script>addEventListener("load",()=>{for(const e of document.querySelectorAll('
-    '".md-typeset__scrollwrap"))e.tabIndex=0})</script></body>'
+_WHEN_LOADED = (
+    '<script>addEventListener("load",()=>{const all=s=>document.querySelectorAll(s);'
+    'for(const e of all(".md-typeset__scrollwrap"))e.tabIndex=0;'
+    'for(const e of all("pre>code"))if(/[\u2500-\u257f]/.test(e.textContent)){'
+    'e.style.whiteSpace="pre";e.tabIndex=0}})</script></body>'
 )
 _ACCESSIBLE = {
-    "</body>": _FOCUSABLE_TABLES,
+    "</body>": _WHEN_LOADED,
     'data-md-component="search" role="dialog"': 'data-md-component="search" '
     'role="dialog" aria-label="Search"',
     "</head>": _STYLE,

@@ -1,5 +1,6 @@
 """Words of element results in OP2 files.
 
+Which columns an element has, and its layout, stand in its record (`Op2`).
 Each layout turns results (e, c) in our columns into rows of 32-bit words; ids and grid
 numbers are integers among the reals. What Nastran fills with margins of safety is its
 "no margin"; direction cosines of principal stresses of solids are left zero.

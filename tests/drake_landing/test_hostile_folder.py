@@ -60,9 +60,9 @@ def audited(program: str, *words: object, cwd: Path) -> tuple[int, list, str]:
             "PYTHONPATH": str(HERE.parents[1]),
             "DRAKE_LANDING_CACHE": "off",
             "TMPDIR": str(cwd / "scratch"),
-            # Machine code goes to a folder of the user's.
+            # Machine code and lists of fonts go to folders of the user.
             "NUMBA_CACHE_DIR": str(cwd / "scratch"),
-            "NUMBA_DISABLE_JIT": "1",
+            "MPLCONFIGDIR": str(cwd / "scratch"),
         },
     )
     told = json.loads(done.stdout.splitlines()[-1])

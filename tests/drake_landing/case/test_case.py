@@ -2,12 +2,19 @@
 
 import json
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
+from drake_landing.airframe.deck_units import METALS
+from drake_landing.case.airframe import UnitSystem
 from drake_landing.case.mode_selection import Selection
 from drake_landing.case.reading import case_text, load_case, parse_case, schema_text
 from drake_landing.case.schema import Case
+from drake_landing.case.simulation import Transient
+from drake_landing.process import landing_deck
+from drake_landing.transient.response import SCHEMES
+from fem.deck.units import SYSTEMS
 from fem.errors import InputError
 
 MINIMAL = """\
@@ -33,6 +40,13 @@ def gears_of_tiny_case() -> str:
 def edited(old: str, new: str) -> str:
     assert old in MINIMAL
     return MINIMAL.replace(old, new)
+
+
+def test_names_that_cases_take_are_those_of_the_tables() -> None:
+    scheme = Transient.model_fields["scheme"].annotation
+    assert set(get_args(scheme)) == set(SCHEMES)
+    assert set(get_args(UnitSystem)) == set(SYSTEMS) == set(METALS)
+    assert set(landing_deck._UNITS) == set(SYSTEMS)
 
 
 def test_defaults_make_a_complete_case() -> None:
