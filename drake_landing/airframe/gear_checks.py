@@ -14,6 +14,7 @@ from drake_landing.airframe.gear_places import place_remarks, shell_attachments
 from drake_landing.case.axes import gear_in_A
 from drake_landing.gears.bodies import mass_points, tip_below_root, wheel_centres
 from drake_landing.gears.data import LandingGear, LeveredGear
+from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
 from drake_landing.landing.lift import STANDARD_GRAVITY
 from fem.errors import InputError
@@ -27,6 +28,14 @@ Float64 = npt.NDArray[np.float64]
 
 _REACH = 10.0  # m, farther from its attachment node no part of a gear lies
 _LEAST_PRELOAD = 0.02  # of the static load; usual are 10 to 20 %
+_LEG_UNITS = {
+    "fore_aft": "is its stiffness in N/m?",
+    "lateral": "is its stiffness in N/m?",
+    "torsion": "is its stiffness in N m/rad?",
+    "beam": "is EI in N m²?",
+    "matrix": "are its terms in N, m and rad?",
+}
+_SLOWEST_LEG = 2.0  # Hz; usual are 10 to 40
 _TIRE_FLATTENED = (0.005, 0.5)  # static deflection over radius, usual are 0.03 to 0.3
 
 
@@ -53,6 +62,7 @@ def check_gears(
         for gear in gears
     }
     problems = gear_problems(gears, places)
+    problems = problems or leg_problems(gears, places)
     if problems:
         raise InputError(problems)
     weight = structure.rigid_mass
@@ -109,6 +119,32 @@ def gear_problems(
                 f"gears.{gear.name}.leg.root: found a point {-below:.4g} m below the "
                 "axle, expected it above, where the leg is clamped"
             )
+    return problems
+
+
+def leg_problems(
+    gears: Sequence[LandingGear], places: Mapping[str, Float64]
+) -> list[str]:
+    """Legs so soft that their stiffness has another unit.
+
+    Args:
+        gears, places: as in `gear_problems`, without problems there.
+    """
+    problems = []
+    for gear in gears:
+        for kind, (rate, _) in leg_oscillators(gear, places[gear.name]).items():
+            hertz = rate / (2.0 * np.pi)
+            law = getattr(gear.leg, kind)
+            told = law is not None and (law.frequency or law.frequency_table)
+            if hertz < _SLOWEST_LEG and not told:
+                field = kind if law else "beam" if gear.leg.beam else "matrix"
+                problems.append(
+                    f"gears.{gear.name}.leg.{field}: found a leg that swings at "
+                    f"{hertz:.3g} Hz ({kind.replace('_', ' and ')}, extended), "
+                    f"expected more than {_SLOWEST_LEG:g} Hz: {_LEG_UNITS[field]}"
+                )
+                if law is None:  # both bendings have one description
+                    break
     return problems
 
 

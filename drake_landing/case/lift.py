@@ -20,7 +20,7 @@ class Tail(Section):
         min_length=1, description="grids that carry it, in equal shares"
     )
     area: float = number("of the tailplane", "m²", gt=0)
-    slope: float = number("lift coefficient over angle of attack", "1/rad", gt=0, le=10)
+    slope: float = number("lift coefficient over angle of attack", "1/rad", ge=1, le=10)
     downwash: float = number(
         "angle of the downwash over that of the wing", "1", 0.0, ge=0, lt=1
     )
@@ -33,7 +33,7 @@ class Following(Section):
     """Lift that follows angle of attack and speed, strip by strip."""
 
     area: float = number("of the wing", "m²", gt=0)
-    slope: float = number("lift coefficient over angle of attack", "1/rad", gt=0, le=10)
+    slope: float = number("lift coefficient over angle of attack", "1/rad", ge=1, le=10)
     density: float = number("of the air", "kg/m³", 1.225, gt=0, le=2)
     pitch_damping: float = number(
         "moment against the pitch rate at the touchdown speed, beside what the strips "
@@ -115,6 +115,17 @@ class Lift(Section):
             raise ValueError(
                 f"factor: found {self.factor:g} beside follows, expected > 0: the lift "
                 "of the flight before touchdown"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _falls_or_stays(self) -> Self:
+        """What tells of a fall needs its duration, without which the lift stays."""
+        told = [n for n in ("decay_start", "remaining") if n in self.model_fields_set]
+        if told and self.decay_duration is None:
+            raise ValueError(
+                f"decay_duration: found none beside {' and '.join(told)}, expected how "
+                "long the lift falls, s"
             )
         return self
 

@@ -66,7 +66,7 @@ def make_scenario_diagram(
 
     Raises:
         InputError: brakes are to be applied and no gear has any, or nodes that carry
-            the lift are not given.
+            the lift are not given, or the profile is too sharp for the tires.
         ValueError: as MakeLandingDiagram.
     """
     if scenario.braking and not any(gear.brake for gear in gears):
@@ -74,10 +74,12 @@ def make_scenario_diagram(
             f"scenario.braking: found {scenario.braking:g}, but no gear has a brake"
         )
     ahead = min(p[0] for gear in gears for p in wheel_centres(gear).values())
+    runway = runway_of(scenario.runway, origin=(ahead - body.p_BG[0], 0.0))
+    _require_rollable(runway, gears, scenario.runway.profile)
     return MakeLandingDiagram(
         body,
         gears,
-        runway_of(scenario.runway, origin=(ahead - body.p_BG[0], 0.0)),
+        runway,
         monitor_nodes=monitor_nodes,
         gravity=STANDARD_GRAVITY if scenario.gravity else 0.0,
         lift=_lift(scenario.lift) if isinstance(scenario.lift, LiftSection) else None,
@@ -164,6 +166,23 @@ def _reverse_thrust(section: ReverseThrust | None):
     if section is None:
         return None
     return section.nodes, Table(*zip(*section.table))
+
+
+def _require_rollable(
+    runway: Runway, gears: Sequence[LandingGear], profile: AnyProfile | None
+) -> None:
+    """Hollows are wider than the tires, those of a file in its unit, too."""
+    try:
+        for gear in gears:
+            runway.require_rollable(gear.tyre.radius)
+    except ValueError as error:
+        text = str(error).removeprefix("runway: ")
+        if isinstance(profile, Measured):
+            text = (
+                f"{profile.file.name}: {text.split(': make')[0]}: are distances and "
+                f"heights in {profile.unit}, the points far enough apart?"
+            )
+        raise InputError(f"scenario.runway.profile: {text}") from None
 
 
 def runway_of(section: RunwaySection, origin: tuple[float, float] = (0, 0)) -> Runway:

@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from time import process_time
 
 import numpy as np
+import numpy.typing as npt
 import scipy.sparse as sp
 
 from drake_landing.airframe.aircraft import Aircraft
@@ -31,6 +32,7 @@ from drake_landing.conditions.build import on_ground
 from drake_landing.conditions.peaks import landing_story
 from drake_landing.conditions.rules import condition_figures
 from drake_landing.gears.data import LandingGear
+from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
 from drake_landing.landing.settling import LIMIT
@@ -102,7 +104,11 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
         _dry_run(case, aircraft, structure)
         conditions = list(_conditions(case, aircraft, structure))
     lines = [*_airframe(case, aircraft, structure, cost, truncated)]
-    lines += [_components(elements), *_gears(aircraft), *_touchdown(case, aircraft)]
+    lines += [
+        _components(elements),
+        *_gears(aircraft, structure, rotation_AB(case.airframe.axes)),
+        *_touchdown(case, aircraft),
+    ]
     lines += [*_scenario(case, aircraft, structure), *_run(case, structure, cost, step)]
     lines += conditions
     lines.append(_line("files", f"{out or Path('out', case.name)}: {', '.join(FILES)}"))
@@ -226,7 +232,9 @@ def _components(elements: Inventory) -> str:
     return _line("components", f"{named}; parts.components names others")
 
 
-def _gears(aircraft: Aircraft) -> Iterator[str]:
+def _gears(
+    aircraft: Aircraft, structure: Structure, R_AB: npt.NDArray[np.float64]
+) -> Iterator[str]:
     width = max(len(gear.name) for gear in aircraft.gears)
     for i, gear in enumerate(aircraft.gears):
         wheels = len(gear.wheel_names)
@@ -237,6 +245,22 @@ def _gears(aircraft: Aircraft) -> Iterator[str]:
             f"{gear.mass:,.1f} kg, stroke {gear.shock_absorber.stroke:g} m, at grid "
             f"{held}",
         )
+    for gear in aircraft.gears:
+        if gear.leg is not None:
+            yield _line("", f"{gear.name:<{width}}  {_leg(gear, structure, R_AB)}")
+
+
+def _leg(gear: LandingGear, structure: Structure, R_AB: npt.NDArray[np.float64]) -> str:
+    """Frequencies of the extended leg, by which its data are seen at a glance."""
+    at = structure.points.rows([gear.attachment_node])[0]
+    place = R_AB @ structure.points.xyz[at]
+    found = leg_oscillators(gear_in_A(gear, R_AB), place)
+    told = ", ".join(
+        f"{kind.replace('_', ' and ')} {rate / (2.0 * np.pi):.3g} Hz "
+        f"({100.0 * ratio:.2g} %)"
+        for kind, (rate, ratio) in found.items()
+    )
+    return f"elastic leg, extended: {told}"
 
 
 def _touchdown(case: Case, aircraft: Aircraft) -> Iterator[str]:

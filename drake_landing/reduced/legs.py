@@ -13,6 +13,7 @@ from fem.errors import InputError, nearest
 
 Float64 = npt.NDArray[np.float64]
 
+_AWAY = 0.1  # m, that the matrices' axle may lie from the gear's unsaid
 _MASS_OFF = 0.05  # of the gear's own, that a leg's mass may differ by unsaid
 
 
@@ -42,7 +43,8 @@ def with_read_legs(
             )
         except (InputError, ValueError) as error:
             raise InputError(f"{field}: {_reason(error)}") from None
-        notices += [f"{field}: {text}" for text in _mass_notice(model, gear)]
+        odd = (*_mass_notice(model, gear), *_place_notice(model, gear, leg.reduced))
+        notices += [f"{field}: {text}" for text in odd]
         whole = leg.model_copy(update={"reduced": None, "matrix": matrix})
         read.append(gear.model_copy(update={"leg": whole}))
     return tuple(read), tuple(notices)
@@ -90,6 +92,19 @@ def _mass_notice(model: ReducedModel, gear: LandingGear) -> list[str]:
     return [
         f"the matrices have a mass of {found:.4g} kg, the gear without wheels "
         f"{least:.4g} kg below its fitting and {most:.4g} kg with it, which are used"
+    ]
+
+
+def _place_notice(model: ReducedModel, gear: LandingGear, leg: ReducedLeg) -> list[str]:
+    """A leg of the other side, of another frame or in another unit."""
+    there = model.p[list(model.grid_id).index(leg.axle)]
+    here = getattr(gear, "pivot" if gear.kind == "bogie" else "axle")
+    if np.linalg.norm(there - here) <= _AWAY:
+        return []
+    at, of = (", ".join(f"{x:.4g}" for x in p) for p in (there, here))
+    return [
+        f"grid {leg.axle} lies at {at}, the end of the gear's leg at {of} m: the "
+        "stiffness is taken as it is, along the axes of the matrices"
     ]
 
 

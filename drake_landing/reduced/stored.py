@@ -11,6 +11,8 @@ from drake_landing.cache import Arrays, Cache, content_key
 from drake_landing.reduced.checks import ReductionChecks, check_reduction
 from drake_landing.reduced.make import Method, reduce_structure
 from drake_landing.reduced.model import ReducedModel
+from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import ModesError
 from fem.model.structure import Structure
 
 # Of the program that makes them: entries of another one are never found.
@@ -51,7 +53,11 @@ def checked_reduction(
         reduced = reduce_structure(
             structure, grids, method, highest_hz=highest_hz, count=count
         )
-        checks = check_reduction(structure, reduced, compare_hz)
+        checks = structure.guarded(
+            lambda: check_reduction(structure, reduced, compare_hz),
+            dynamic=True,  # a stick without rotary inertia spins without mass
+            error=(SingularMatrixError, ModesError),
+        )
         return _arrays(reduced.model, checks)
 
     return _restored(cache.arrays("reduction", key, build))

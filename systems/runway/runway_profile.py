@@ -223,6 +223,11 @@ def measured_tracks(
             text = line.split("#")[0].strip()
             if text:
                 row = _numbers(text, f"{path}, line {number}", first=number == 1)
+                if not all(map(math.isfinite, row)):
+                    raise ValueError(
+                        f"{path}, line {number}: found {text!r}, expected finite "
+                        "numbers"
+                    )
                 rows += [row] if row else []
                 if row and len(row) != len(rows[0]):
                     raise ValueError(

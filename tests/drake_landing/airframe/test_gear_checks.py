@@ -7,7 +7,12 @@ import pytest
 from numpy.testing import assert_allclose
 from pydantic import ValidationError
 
-from drake_landing.airframe.gear_checks import gear_problems, gear_remarks, static_loads
+from drake_landing.airframe.gear_checks import (
+    gear_problems,
+    gear_remarks,
+    leg_problems,
+    static_loads,
+)
 from drake_landing.airframe.gear_places import (
     clearances,
     pitch_of_all,
@@ -294,3 +299,20 @@ def test_remarks_do_not_depend_on_the_frame_of_the_deck():
     found = static_loads(shifted, BODY.mass, BODY.p_BG + moved[0])
     wanted = static_loads((NOSE, LEFT, RIGHT), BODY.mass, BODY.p_BG)
     assert_allclose(list(found.values()), list(wanted.values()), rtol=1e-9)
+
+
+def _soft(leg):
+    gear = changed(LEFT, leg=leg)
+    return leg_problems([NOSE, gear, RIGHT], _places([NOSE, gear, RIGHT]))
+
+
+def test_a_leg_whose_stiffness_is_in_kilonewtons_is_refused():
+    (problem,) = _soft({"fore_aft": {"stiffness": 4500.0}})
+    assert problem.startswith("gears.main_left.leg.fore_aft: found a leg that swings")
+    assert problem.endswith("expected more than 2 Hz: is its stiffness in N/m?")
+    lengths = {"cylinder_length": 1.6, "overhang": 1.066, "bearing_distance": 0.5}
+    beam = {"cylinder_bending": 2.5e7, "piston_bending": 1e7} | lengths
+    assert _soft({"beam": beam}) == []
+    told = _soft({"beam": beam | {"cylinder_bending": 2.5e4, "piston_bending": 1e4}})
+    assert [text.split(":")[0] for text in told] == ["gears.main_left.leg.beam"]
+    assert _soft({"fore_aft": {"frequency": 1.5}}) == []  # as it is meant

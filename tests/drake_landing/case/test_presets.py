@@ -153,6 +153,24 @@ def test_lift_and_gravity_in_a_scenario():
     assert loads["stroke"]["main_left"] > without["stroke"]["main_left"] + 0.005
 
 
+def test_a_fall_of_the_lift_needs_its_duration():
+    for lift in ({"decay_start": 0.1, "remaining": 0.3}, {"remaining": 0.3}):
+        with pytest.raises(ValueError, match="decay_duration: found none beside"):
+            Scenario.model_validate({"lift": {"nodes": WING} | lift})
+
+
+def test_heights_in_another_unit_are_said_to_be_the_profiles(tmp_path):
+    file = tmp_path / "heights.csv"
+    file.write_text("0,0\n1,50\n2,0\n3,50\n4,0\n")
+    profile = {"kind": "measured", "file": str(file)}
+    scenario = Scenario.model_validate(
+        {"sink_rate": 1.0, "runway": {"profile": profile}}
+    )
+    message = r"scenario.runway.profile: heights.csv: radius .* heights in m"
+    with pytest.raises(InputError, match=message):
+        try_scenario(aircraft_body(0), _gears(), scenario, duration=0.01)
+
+
 def test_history_of_a_gear_has_its_peaks():
     scenario = Scenario.model_validate({"preset": "two_point"})
     trial = try_scenario(

@@ -62,6 +62,14 @@ def test_a_mass_that_is_not_that_of_the_gear_is_told(files):
     assert "400 kg" in notice
 
 
+def test_a_leg_of_the_other_side_is_told(files):
+    other = changed(
+        aircraft_gears()[2], leg={"reduced": {**files, "root": ROOT, "axle": AXLE}}
+    )
+    _, (notice,) = with_read_legs([other])
+    assert "grid 22 lies at 17.7, -3.8, -3.716, the end of the gear's leg at" in notice
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

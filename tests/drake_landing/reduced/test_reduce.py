@@ -166,6 +166,30 @@ def test_unknown_basis(con: Structure, capsys: pytest.CaptureFixture[str]) -> No
     assert "did you mean 'guyan'" in capsys.readouterr().err
 
 
+def test_a_stick_without_rotary_inertia_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    deck = tmp_path / "leg.bdf"
+    deck.write_text(
+        """BEGIN BULK
+GRID,1,,0.,0.,0.
+GRID,2,,0.,0.,-1.
+GRID,3,,0.,0.,-2.
+CBAR,1,1,1,2,0.,1.,0.
+CBAR,2,1,2,3,0.,1.,0.
+PBAR,1,1,2.-2,9.-5,9.-5,1.8-4
+MAT1,1,2.+11,,.3,7800.
+ASET1,123456,1,3
+ENDDATA
+"""
+    )
+    line = ["reduce", str(deck), "--out", str(tmp_path / "out")]
+    assert guarded(app, line) == 2
+    told = capsys.readouterr().err
+    assert "motion without stiffness and mass" in told
+    assert "grid 1 R3" in told
+
+
 def test_guyan_onto_everything_has_the_modes_of_the_deck(con: Structure) -> None:
     reduced = reduce_structure(con, interface_grids("SET 2", con), "guyan")
     modes = reduced_modes(reduced.model, 3.0)

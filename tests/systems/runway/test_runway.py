@@ -118,6 +118,9 @@ def test_measured_profile_is_read_from_a_file(tmp_path):
     path.write_text("0,0\n2\n")
     with pytest.raises(ValueError, match="line 2: found '2', expected distance"):
         measured_tracks(path)
+    path.write_text("0,0\n2,nan\n")
+    with pytest.raises(ValueError, match="line 2: found '2,nan', expected finite"):
+        measured_tracks(path)
     path.write_text("")
     with pytest.raises(ValueError, match="0 points, expected two or more"):
         measured_tracks(path)
