@@ -30,18 +30,21 @@ _AT_ROOT = {
 # The search is a dialog without a name; code would scroll, by the mouse alone;
 # links in text differ by color alone; comments in code are too pale; wide tables, which
 # the theme wraps when the page is there, scroll by the mouse alone; drawings made of
-# characters must not be wrapped as code is.
+# characters must not be wrapped as code is; words in pictures could not be read on
+# narrow screens.
 _PALE = ("comment", "operator", "punctuation", "generic", "variable")
 _STYLE = (
     "<style>.md-typeset :is(p,li,td) a{text-decoration:underline}"
     ".md-typeset pre>code{white-space:pre-wrap;overflow-wrap:anywhere}"
     "[data-md-color-scheme=default]{"
     + "".join(f"--md-code-hl-{name}-color:#5c5c5c;" for name in _PALE)
-    + "}</style></head>"
+    + "}@media(max-width:600px){.md-typeset p:has(>img:only-child){overflow-x:auto}"
+    ".md-typeset p>img:only-child{width:700px;max-width:none}"
+    ".md-typeset p>img[src$=svg]:only-child{width:1100px}}</style></head>"
 )
 _WHEN_LOADED = (
     '<script>addEventListener("load",()=>{const all=s=>document.querySelectorAll(s);'
-    'for(const e of all(".md-typeset__scrollwrap"))e.tabIndex=0;'
+    'for(const e of all(".md-typeset__scrollwrap,p:has(>img:only-child)"))e.tabIndex=0;'
     'for(const e of all("pre>code"))if(/[\u2500-\u257f]/.test(e.textContent)){'
     'e.style.whiteSpace="pre";e.tabIndex=0}})</script></body>'
 )
@@ -51,6 +54,7 @@ _ACCESSIBLE = {
     'role="dialog" aria-label="Search"',
     "</head>": _STYLE,
 }
+_CODE = re.compile(r"`[^`\n]+`")
 _LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 
 
@@ -91,7 +95,11 @@ def on_post_template(output: str, template_name: str, **_: object) -> str:
 
 
 def on_page_markdown(markdown: str, **_: object) -> str:
-    """Pages link files of the repository that the site does not have: their names."""
+    """Pages link files of the repository that the site does not have: their names.
+
+    Bars within code, which GitHub wants escaped in tables, are none of the table here.
+    """
+    markdown = _CODE.sub(lambda code: code[0].replace("\\|", "|"), markdown)
     return _LINK.sub(_kept, markdown)
 
 
