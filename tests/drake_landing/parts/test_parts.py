@@ -9,6 +9,7 @@ from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.reading import parse_case
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.parts.cuts import Cutter, mean_of_three
+from drake_landing.parts.field_pictures import emptiest_corner
 from drake_landing.parts.inventory import inventory
 from drake_landing.parts.observers import PartsFound, PartsWatch
 from drake_landing.parts.slices import (
@@ -382,3 +383,11 @@ def test_a_laminate_has_the_stress_of_its_isotropic_ply(tmp_path: Path) -> None:
     np.testing.assert_allclose(found[:, 0], found[0, 0], rtol=1e-9)
     np.testing.assert_allclose(found[:, 1], 7e10 / 0.91 * 1e-3, rtol=1e-6)
     assert inventory(model, {}).elements.material.tolist() == [1, 1]
+
+
+def test_axes_of_a_picture_go_where_nothing_is_drawn() -> None:
+    corners = np.array([[0.1, 0.1], [0.1, 0.9], [0.9, 0.9], [0.9, 0.1]])
+    for i, corner in enumerate(corners):
+        box = emptiest_corner(np.delete(corners, i, axis=0))
+        assert (corner > box[:2]).all()
+        assert (corner < box[2:]).all()
