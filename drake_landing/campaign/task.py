@@ -238,7 +238,8 @@ def _write_sections(
     group = file.create_group("sections")
     for beam, cuts in setup.cuts.items():
         named = cuts.named(setup.basis.section_loads(beam, z))
-        own = group.create_group(beam)
+        own = group.create_group(group_name(beam))
+        own.attrs["name"] = beam
         _dataset(own, "station", cuts.beam.stations, "m")
         _write_extremes(own, named, NAMED, PAIRS, loads)
 
