@@ -26,7 +26,9 @@ def test_links_lead_somewhere(page: Path) -> None:
 
 
 def test_every_command_is_there_and_named() -> None:
-    names = {c.name or c.callback.__name__ for c in app.registered_commands}
+    names = {
+        c.name or c.callback.__name__.replace("_", "-") for c in app.registered_commands
+    }
     told = set(re.findall(r"`drake-landing ([a-z-]+)", README))
     assert told == {name.replace("_", "-") for name in names}
 
