@@ -132,12 +132,15 @@ def leg_problems(
     """
     problems = []
     for gear in gears:
+        leg = gear.leg
+        if leg is None:
+            continue
         for kind, (rate, _) in leg_oscillators(gear, places[gear.name]).items():
             hertz = rate / (2.0 * np.pi)
-            law = getattr(gear.leg, kind)
+            law = getattr(leg, kind)
             told = law is not None and (law.frequency or law.frequency_table)
             if hertz < _SLOWEST_LEG and not told:
-                field = kind if law else "beam" if gear.leg.beam else "matrix"
+                field = kind if law else "beam" if leg.beam else "matrix"
                 problems.append(
                     f"gears.{gear.name}.leg.{field}: found a leg that swings at "
                     f"{hertz:.3g} Hz ({kind.replace('_', ' and ')}, extended), "
