@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 
 from fem.deck.case_control import Subcase
-from fem.deck.param_names import DEFAULTS, Value
+from fem.deck.param_names import CELLS, DEFAULTS, Value
 from fem.deck.superelement_sets import Superelement
 from fem.errors import InputError, nearest
 
@@ -48,12 +48,12 @@ class Deck:
     increments: "Mapping[int, Deck]" = field(default_factory=dict)
 
     def param(self, name: str) -> Value:
-        """Value of a parameter, Nastran's default where the deck does not give it.
+        """Value of a parameter or system cell, Nastran's default where none is given.
 
         Raises:
             KeyError: no parameter of that name is known here (an error in the program).
         """
-        return self.params.get(name, DEFAULTS[name])
+        return self.params.get(name, {**DEFAULTS, **CELLS}[name])
 
     def number(self, name: str) -> float:
         """Value of a numeric parameter, see `param`."""

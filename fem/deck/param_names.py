@@ -10,7 +10,6 @@ DEFAULTS: dict[str, Value] = {
     "ALPHA2": 0.0,
     "AUTOSPC": "YES",
     "BAILOUT": 0,
-    "BARMASS": 0,  # a system cell: of the NASTRAN statement
     "CB1": 1.0,
     "CB2": 1.0,
     "CK1": 1.0,
@@ -37,6 +36,9 @@ DEFAULTS: dict[str, Value] = {
     "W4": 0.0,
     "WTMASS": 1.0,
 }
+
+# System cells that the solutions look at: of the NASTRAN statement, no PARAM.
+CELLS: dict[str, Value] = {"BARMASS": 0}
 
 # Printing, files, checks: nothing to do with the answer.
 WITHOUT_EFFECT = frozenset(

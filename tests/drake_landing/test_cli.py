@@ -100,7 +100,7 @@ BAD_DECKS = {
     ),
     "monitoring point held": (
         lambda t: changed(t, "GRID,1,,0.0,0.,0.", "GRID,1,,0.0,0.,0.,,3"),
-        ["nose", "grid 1 ", "constrained"],
+        ["nose", "grid 1 ", "the PS field of GRID holds"],
     ),
     "loose part": (
         lambda t: changed(t, "ENDDATA", LOOSE + "ENDDATA"),
