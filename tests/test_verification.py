@@ -13,6 +13,7 @@ LONG = {
     "plate_reactions",
     "plates_that_buckle",
     *("curved_roof", "curved_hemisphere", "plates_of_any_thickness"),
+    *("shear_forces", "euler_columns", "cook_membrane", "sheet_cantilever"),
 }
 
 
