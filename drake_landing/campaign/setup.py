@@ -8,11 +8,16 @@ verify the digest that the campaign gave them.
 They are kept in the campaign's folder under a key of everything that they follow from.
 A run that goes on reads them again: modes that are computed anew may differ in the last
 digit, or in sign, and amplitudes of landings belong to the very modes they flew with.
+The files are pickles, which can run any code: they are signed with a secret of the
+user, in the folder of the cache, and what somebody else left in a folder is not read.
 """
 
 import hashlib
+import hmac
 import json
+import os
 import pickle
+import secrets
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -170,14 +175,26 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
     if files is None:
         with case.reading():
             files = _compute(case, aircraft, folder, key, progress)
+    setup = read_landing_setup(files["landing"])
     return Prepared(
-        key=key,
+        key=_key(key, setup),
         landing=files["landing"],
         transient=files["transient"],
         shapes=files["shapes"],
         aircraft=aircraft,
-        setup=read_landing_setup(files["landing"]),
+        setup=setup,
         ultimate_factor=case.parts.ultimate_factor,
+    )
+
+
+def _key(inputs: str, setup: LandingSetup) -> str:
+    """Of inputs and of the very modes, which may differ where they are made anew."""
+    basis = setup.basis
+    return content_key(
+        inputs,
+        dict(vars(setup.body)),
+        [*basis.stress, *basis.sections.values(), *basis.monitors.values()],
+        setup.steady,
     )
 
 
@@ -253,21 +270,51 @@ def _compute(
     files = {n: _write(folder / f"{n}-{key}.setup", part) for n, part in parts.items()}
     with written_aside(folder / f"{key}.kept.json") as part:  # last: all are there
         digests = {name: file.digest for name, file in files.items()}
-        part.write_text(json.dumps(digests, indent=1), encoding="utf-8")
+        kept = {"digests": digests, "signature": _signature(key, digests)}
+        part.write_text(json.dumps(kept, indent=1), encoding="utf-8")
     return files
 
 
 def _kept(folder: Path, key: str) -> dict[str, SetupFile] | None:
     """The files of a key, where all are there as they were written."""
     with suppress(OSError, ValueError, KeyError, TypeError):
-        digests = json.loads((folder / f"{key}.kept.json").read_text(encoding="utf-8"))
-        found = {}
+        kept = json.loads((folder / f"{key}.kept.json").read_text(encoding="utf-8"))
+        digests, found = kept["digests"], {}
+        signature = _signature(key, digests)
+        if not (signature and hmac.compare_digest(signature, kept["signature"])):
+            return None
         for name in ("landing", "transient", "shapes"):
             path = (folder / f"{name}-{key}.setup").resolve()
             if _digest(path.read_bytes()) != digests[name]:
                 return None
             found[name] = SetupFile(path=path, digest=digests[name])
         return found
+    return None
+
+
+def _signature(key: str, digests: Mapping[str, str]) -> str:
+    """Of files by this user; empty where no secret can be kept."""
+    secret = _secret()
+    if secret is None:
+        return ""
+    text = json.dumps([key, sorted(digests.items())]).encode()
+    return hashlib.blake2b(text, key=secret, digest_size=32).hexdigest()
+
+
+def _secret() -> bytes | None:
+    """32 bytes that only this user can read, made when they are first needed."""
+    folder = Cache.of_user().folder
+    if folder is None:
+        return None
+    path = folder / "secret"
+    with suppress(OSError):  # it is there already, or none can be made
+        folder.mkdir(parents=True, exist_ok=True)
+        number = os.open(path, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
+        with os.fdopen(number, "wb") as file:
+            file.write(secrets.token_bytes(32))
+    with suppress(OSError):
+        found = path.read_bytes()
+        return found if len(found) == 32 else None
     return None
 
 

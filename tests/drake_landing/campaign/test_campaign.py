@@ -147,13 +147,23 @@ def test_an_airframe_is_kept_and_a_damaged_one_made_again(
     compute = setup._compute
     monkeypatch.setattr(setup, "_compute", computed)
     case, place = expand(result.campaign)[1][0], tmp_path / "000"
-    shutil.copytree(result.folder / "airframes" / "000", place)
+    monkeypatch.setenv("DRAKE_LANDING_CACHE", str(tmp_path / "mine"))
     first = setup.prepare(case, place, Silent())
-    assert made == []
+    assert setup.prepare(case, place, Silent()).key == first.key
+    assert made == ["airframe"]
     first.landing.path.write_bytes(b"damaged")
     again = setup.prepare(case, place, Silent())
-    assert made == ["airframe"]
+    assert made == ["airframe"] * 2
     assert again.key == first.key
+    (kept,) = place.glob("*.kept.json")
+    inputs = kept.name.removesuffix(".kept.json")
+    assert setup._kept(place, inputs) is not None
+    for folder in (str(tmp_path / "stranger"), "off"):  # another secret, or none
+        monkeypatch.setenv("DRAKE_LANDING_CACHE", folder)
+        assert setup._kept(place, inputs) is None
+    body = replace(again.setup.body, frequency=again.setup.body.frequency * (1 + 1e-15))
+    other = replace(again.setup, body=body)  # the same inputs, modes made anew
+    assert setup._key(inputs, again.setup) == first.key != setup._key(inputs, other)
     (place / "left.setup").touch()  # of another state of the airframe
     airframe = case.airframe.model_copy(update={"candidates": 100.0})
     thinner = case.model_copy(update={"airframe": airframe})
