@@ -167,7 +167,7 @@ def run(
 
     expect_file(deck)
     from fem.deck.reader import read_deck
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
     from fem.errors import InputError
     from fem.files.escaping import file_name
     from fem.files.export import export, wants_op2

@@ -7,9 +7,9 @@ test keeps both alike.
 import sys
 from pathlib import Path
 
-from fem.deck.case_command_names import QUANTITIES
 from fem.deck.catalogue import PASSED_OVER
-from fem.deck.param_names import DEFAULTS
+from fem.deck.control.case_command_names import QUANTITIES
+from fem.deck.control.param_names import DEFAULTS
 from fem.deck.reader import SUPPORTED
 from fem.deck.records import CARDS, Result, results
 from fem.solution.options import WRITTEN

@@ -16,7 +16,7 @@ from benchmarks.suite.compare import differences
 from benchmarks.suite.hdf5_tables import read_nastran_hdf5
 from benchmarks.suite.tables import Name, Table, read_f06, read_op2
 from fem.deck.reader import read_deck
-from fem.deck.source import include_reach
+from fem.deck.text.source import include_reach
 from fem.errors import InputError
 from fem.files.op2 import write_op2
 from fem.model.structure import Structure

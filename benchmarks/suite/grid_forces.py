@@ -17,7 +17,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.deck.reader import read_deck
-from fem.deck.source import include_reach
+from fem.deck.text.source import include_reach
 from fem.model.structure import Structure
 
 

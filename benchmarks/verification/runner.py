@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from fem.deck.reader import read_deck
-from fem.deck.source import include_reach
+from fem.deck.text.source import include_reach
 from fem.solution import Options, run_deck
 
 

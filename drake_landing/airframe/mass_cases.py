@@ -18,11 +18,11 @@ from drake_landing.case.mass_cases import MassCase, Span, holds_id
 from drake_landing.gears.bodies import mass_points
 from drake_landing.gears.data import LandingGear
 from fem.arrays import Float64
-from fem.deck.case_command_names import canonical
-from fem.deck.lexer import RawCard, read_cards, without_cards
-from fem.deck.sections import Sections, split_sections
-from fem.deck.source import Line, read_source
-from fem.deck.values import real
+from fem.deck.control.case_command_names import canonical
+from fem.deck.text.lexer import RawCard, read_cards, without_cards
+from fem.deck.text.sections import Sections, split_sections
+from fem.deck.text.source import Line, read_source
+from fem.deck.text.values import real
 from fem.errors import InputError
 from fem.files.atomic import written_aside
 from fem.model.structure import Structure

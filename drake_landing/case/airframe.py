@@ -20,7 +20,7 @@ from drake_landing.case.section import Section, number
 from drake_landing.case.steady import Steady
 from drake_landing.files import relative_to_case
 from drake_landing.parametric import registered
-from fem.deck.source import include_reach
+from fem.deck.text.source import include_reach
 from fem.errors import nearest
 
 UnitSystem = Literal["SI", "mm-t-N", "in-lbf"]

@@ -29,7 +29,7 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.case.section import Section
 from drake_landing.case.simulation import Simulation, Transient
 from drake_landing.gears.data import AnyGear
-from fem.deck.source import include_reach
+from fem.deck.text.source import include_reach
 
 # The name of a known set, or a list; tags are in parentheses, see `reading`.
 Gears = Annotated[

@@ -40,7 +40,7 @@ def new(
     """Writes a commented case for a deck: units, axes, points, gears to begin with."""
     expect_deck(deck)
     from drake_landing.process.new_case import Stated, new_case
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
     from fem.errors import InputError
     from fem.files.atomic import write_aside
 
@@ -71,7 +71,7 @@ def check(
 ) -> None:
     """Explains a case after a dry run: deck, mechanisms, gears, initial state."""
     from drake_landing.case.reading import case_text, schema_text
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
     from fem.errors import InputError
 
     if schema:
@@ -114,7 +114,7 @@ def conditions(
     loaded = read_case(case)
     from drake_landing.process.static_conditions import run_conditions, summary
     from drake_landing.progress import reporter
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
     from fem.files.folders import claim
 
     folder = out or Path("out", "conditions", loaded.name)

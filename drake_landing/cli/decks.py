@@ -49,7 +49,7 @@ def show(
     """Pictures of a deck: mesh by component, modes, a viewer that needs no server."""
     expect_deck(deck)
     from drake_landing.show import show_model
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
     from fem.files.folders import claim
 
     folder = claim(out or Path("out", "show", deck.stem), f"show {deck.name}")
@@ -82,7 +82,7 @@ def reduce(
     """Reduces a deck to interface grids; checks; HDF5, DMIG punch and OUTPUT4."""
     expect_deck(deck)
     from drake_landing.reduced.command import reduce_deck
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
     from fem.files.folders import claim
 
     folder = claim(out or Path("out", "reduce", deck.stem), f"reduce {deck.name}")

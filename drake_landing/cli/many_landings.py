@@ -67,7 +67,7 @@ def campaign(
     planned = load_campaign(file)  # what is wrong with it, before much is loaded
     from drake_landing.campaign.command import campaign_command
     from drake_landing.campaign.engine import Pool
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
 
     pool = Pool(scheduler=scheduler, workers=workers, memory_gb=memory)
     with include_reach(include_path or [], trust=trust):

@@ -56,7 +56,7 @@ def run(
     ] = False,
 ) -> None:
     """The whole process for a case: landing, direct transient, comparison, report."""
-    from fem.deck.source import include_reach
+    from fem.deck.text.source import include_reach
 
     if pdf:
         from drake_landing.report.pdf import browser

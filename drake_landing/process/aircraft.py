@@ -27,7 +27,7 @@ from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from drake_landing.reduced.legs import with_read_legs
 from drake_landing.reduced.model import ReducedModel
 from fem.arrays import Float64
-from fem.deck.conversions import Units
+from fem.deck.cards.conversions import Units
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
-from fem.deck.sections import split_sections
-from fem.deck.source import read_source
+from fem.deck.text.sections import split_sections
+from fem.deck.text.source import read_source
 from fem.errors import InputError
 from fem.model.structure import Structure
 

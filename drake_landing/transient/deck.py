@@ -15,10 +15,10 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.landing.handover import AttachmentLoads
-from fem.deck.case_control import Subcase
-from fem.deck.lexer import RawCard, read_cards, without_cards
-from fem.deck.sections import Sections, split_sections
-from fem.deck.source import Line, read_source
+from fem.deck.control.subcase import Subcase
+from fem.deck.text.lexer import RawCard, read_cards, without_cards
+from fem.deck.text.sections import Sections, split_sections
+from fem.deck.text.source import Line, read_source
 from fem.errors import InputError
 from fem.files.atomic import written_aside
 from fem.files.escaping import comment

@@ -16,8 +16,8 @@ import numpy as np
 from drake_landing.transient.deck import free_ids, model_lines, model_selections
 from fem.algebra.statics import determinate_rows
 from fem.arrays import Float64
-from fem.deck.sections import split_sections
-from fem.deck.source import read_source
+from fem.deck.text.sections import split_sections
+from fem.deck.text.source import read_source
 from fem.deck.units import units_of
 from fem.files.atomic import written_aside
 from fem.files.deck_writer import card

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from fem.deck.fields import Fields, IdRange
-from fem.deck.fixed_fields import read_regular
-from fem.deck.lexer import RawCard
 from fem.deck.records import CARDS, TABLES, Card, table_of
-from fem.deck.values import Malformed
+from fem.deck.records.fixed_fields import read_regular
+from fem.deck.text.fields import Fields, IdRange
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.values import Malformed
 
 Rows = list[dict[str, Any]]
 External = Callable[[RawCard, Callable[[Any], Rows]], Rows]

@@ -6,10 +6,10 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from fem.deck.case_control import Subcase
-from fem.deck.lexer import RawCard
+from fem.deck.control.subcase import Subcase
 from fem.deck.records import CARDS, TABLES, targets_of
-from fem.deck.values import Malformed, integer
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.values import Malformed, integer
 
 Tables = dict[str, pd.DataFrame]
 

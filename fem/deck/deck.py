@@ -6,10 +6,33 @@ from pathlib import Path
 
 import pandas as pd
 
-from fem.deck.case_control import Subcase
-from fem.deck.param_names import CELLS, DEFAULTS, Value
-from fem.deck.superelement_sets import Superelement
+from fem.arrays import Int64
+from fem.deck.control.param_names import CELLS, DEFAULTS, Value
+from fem.deck.control.subcase import Subcase
 from fem.errors import InputError, nearest
+
+
+@dataclass(frozen=True, kw_only=True)
+class Superelement:
+    """One superelement of a model in one piece.
+
+    Attributes:
+        number: its id.
+        interior: (i,) points that only it has.
+        generalised: points, and their components, that stand for its modes.
+        count: modes without points of their own (SENQSET).
+        kept: points of its interior and components that are kept (ASET).
+        methods: EIGRL cards of its own bulk data.
+        free: its modes have parts of the boundary free (CSET, SECSET).
+    """
+
+    number: int
+    interior: Int64
+    generalised: tuple[tuple[int, str], ...] = ()
+    count: int = 0
+    kept: tuple[tuple[int, str], ...] = ()
+    methods: pd.DataFrame | None = None
+    free: bool = False
 
 
 @dataclass(frozen=True, kw_only=True)

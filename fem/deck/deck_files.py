@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from fem.deck.executive import read_executive
-from fem.deck.sections import split_sections
-from fem.deck.source import found_file, read_source
-from fem.deck.superelement_matrices import assigned_files
+from fem.deck.control.executive import read_executive
+from fem.deck.superelements.matrices import assigned_files
+from fem.deck.text.sections import split_sections
+from fem.deck.text.source import found_file, read_source
 
 
 def deck_files(path: Path) -> tuple[Path, ...]:

@@ -12,11 +12,11 @@ import re
 from collections.abc import Collection, Iterator, Sequence
 
 from fem.deck.equations import evaluate
-from fem.deck.fields import Fields
-from fem.deck.lexer import RawCard
 from fem.deck.records import CARDS
 from fem.deck.records.field import layout
-from fem.deck.values import Malformed, integer, real
+from fem.deck.text.fields import Fields
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.values import Malformed, integer, real
 
 _LINEAR = ("DVPREL1", "DVMREL1", "DVCREL1")
 _RELATIONS = frozenset((*_LINEAR, "DVPREL2", "DVMREL2", "DVCREL2"))

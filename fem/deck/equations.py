@@ -12,7 +12,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
-from fem.deck.values import Malformed
+from fem.deck.text.values import Malformed
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>(?:\d+\.?\d*|\.\d+)(?:[EDed][+-]?\d+)?)"

@@ -6,8 +6,8 @@ from pathlib import Path
 from fem.deck.card_tables import make_tables
 from fem.deck.checks import check
 from fem.deck.deck import Deck
-from fem.deck.lexer import RawCard, read_cards
-from fem.deck.source import read_source
+from fem.deck.text.lexer import RawCard, read_cards
+from fem.deck.text.source import read_source
 from fem.errors import InputError
 
 CARDS = ("FORCE", "MOMENT")

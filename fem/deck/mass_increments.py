@@ -11,11 +11,11 @@ from pathlib import Path
 from fem.deck.cards.masses import massset
 from fem.deck.catalogue import WITHOUT_EFFECT
 from fem.deck.deck import Deck
-from fem.deck.fields import Fields
-from fem.deck.lexer import RawCard, read_cards
 from fem.deck.records import CARDS, Card, table_of, targets_of
-from fem.deck.sections import split_sections
-from fem.deck.source import read_source
+from fem.deck.text.fields import Fields
+from fem.deck.text.lexer import RawCard, read_cards
+from fem.deck.text.sections import split_sections
+from fem.deck.text.source import read_source
 
 POINTS = ("GRID", "SPOINT", "CORD")
 """Tables that sections of increments take from the main bulk data."""

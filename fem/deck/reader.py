@@ -22,36 +22,32 @@ from pyNastran.bdf.cards.properties.bush import PBUSH
 
 from fem.arrays import Int64
 from fem.deck.card_tables import make_tables
-from fem.deck.case_control import CaseControl, read_case_control
 from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import STATIC_LOADS, check, check_selected
 from fem.deck.cleanup import clean, drop_unused_equations
-from fem.deck.deck import Deck
+from fem.deck.control.case_control import CaseControl, read_case_control
+from fem.deck.control.executive import read_executive
+from fem.deck.control.param_cards import read_parameters
+from fem.deck.deck import Deck, Superelement
 from fem.deck.design_variables import set_initial_values
-from fem.deck.executive import read_executive
-from fem.deck.fields import Fields
-from fem.deck.lexer import Bulk, RawCard, read_cards
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
-from fem.deck.param_cards import read_parameters
 from fem.deck.records import CARDS
-from fem.deck.sections import Sections, split_sections
-from fem.deck.source import read_source
-from fem.deck.superelement_images import (
+from fem.deck.superelements.images import (
     check_images,
     images,
     mirrored,
     of_primaries,
     with_primary,
 )
-from fem.deck.superelement_matrices import with_matrices
-from fem.deck.superelement_sets import (
-    Superelement,
-    of_main_section,
-    split_subcases,
-    with_chosen_sets,
-)
-from fem.deck.superelements import check_sections, in_one_piece, with_modal
-from fem.deck.values import Malformed
+from fem.deck.superelements.main_section import main_superelements
+from fem.deck.superelements.matrices import with_matrices
+from fem.deck.superelements.subcases import split_subcases, with_chosen_sets
+from fem.deck.superelements.whole import check_sections, in_one_piece, with_modal
+from fem.deck.text.fields import Fields
+from fem.deck.text.lexer import Bulk, RawCard, read_cards
+from fem.deck.text.sections import Sections, split_sections
+from fem.deck.text.source import read_source
+from fem.deck.text.values import Malformed
 from fem.errors import InputError
 
 _CLASSES: dict[str, Any] = {
@@ -158,7 +154,7 @@ def read_deck(
             problems += check(deck)
     components = deck.components
     if not components and not problems:
-        components = tuple(of_main_section(deck.cards))
+        components = tuple(main_superelements(deck.cards))
         deck = replace(deck, cards=_with_modal_points(deck.cards, components))
     deck = replace(deck, case_control=tuple(subcases))
     increments = _increments(deck, sections, ignore, problems, notices)

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from fem.deck.conversions import Context, Units, listed
+from fem.deck.cards.conversions import Context, Units, listed
 from fem.deck.deck import Deck
 from fem.deck.records import CARDS, TABLES, Card
 from fem.errors import InputError, nearest

@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 
 # Word 9 of a header, heading of PUNCH.
 REAL, RECTANGULAR, POLAR = 1, 2, 3

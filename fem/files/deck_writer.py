@@ -7,7 +7,7 @@ fields of 16. Reals always carry a decimal point, as Nastran demands.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from fem.deck.values import real as value_of
+from fem.deck.text.values import real as value_of
 from fem.files.escaping import comment
 
 Value = int | float | str | None

@@ -15,10 +15,10 @@ import numpy.typing as npt
 
 from fem.arrays import Int64
 from fem.deck.cards.dmig import read_dmig
-from fem.deck.fields import Fields
-from fem.deck.lexer import RawCard, read_cards
-from fem.deck.source import read_source
-from fem.deck.values import Malformed
+from fem.deck.text.fields import Fields
+from fem.deck.text.lexer import RawCard, read_cards
+from fem.deck.text.source import read_source
+from fem.deck.text.values import Malformed
 from fem.errors import InputError
 from fem.matrix_files.checks import check_size, checked
 from fem.matrix_files.named import RECTANGULAR, SYMMETRIC, NamedMatrix

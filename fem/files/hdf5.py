@@ -19,7 +19,7 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from fem.arrays import Float64, Int64
-from fem.deck.case_sets import Selection
+from fem.deck.control.case_sets import Selection
 from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.finite_check import require_finite
 from fem.geometry.points import Points

@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.arrays import Int64
-from fem.deck.case_control import Subcase
-from fem.deck.superelement_sets import split_subcases
+from fem.deck.control.subcase import Subcase
+from fem.deck.superelements.subcases import split_subcases
 from fem.elements.connectivity import element_grids
 from fem.files.atomic import written_aside
 from fem.files.complex_parts import REAL, as_asked, form_of

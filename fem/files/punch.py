@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fem.arrays import Float64, Int64
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 from fem.files.atomic import written_aside
 from fem.files.complex_parts import HEADINGS, as_asked, form_of

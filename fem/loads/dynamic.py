@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64
 from fem.constraints.spc import freedoms
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points

@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
 from fem.deck.checks import FREQUENCIES
+from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
 

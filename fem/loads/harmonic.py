@@ -17,7 +17,7 @@ import pandas as pd
 import scipy.sparse as sp
 
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points

@@ -28,7 +28,7 @@ from fem.errors import InputError
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
-    from fem.deck.case_control import Subcase
+    from fem.deck.control.subcase import Subcase
     from fem.deck.deck import Deck
     from fem.elements.block import ElementBlock
 

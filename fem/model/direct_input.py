@@ -9,7 +9,7 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64
 from fem.deck.references import table, where
-from fem.deck.values import Malformed, real
+from fem.deck.text.values import Malformed, real
 from fem.errors import InputError, nearest
 from fem.geometry.points import Points
 

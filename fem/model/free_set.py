@@ -26,7 +26,7 @@ from fem.model.points import axis_notices
 from fem.model.weight import rigid_modes
 
 if TYPE_CHECKING:
-    from fem.deck.case_control import Subcase
+    from fem.deck.control.subcase import Subcase
 
 
 _WITHOUT_MOTION = (101, 105)

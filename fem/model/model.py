@@ -29,7 +29,7 @@ from fem.model.points import read_points
 from fem.model.weight import Weight, weigh
 
 if TYPE_CHECKING:
-    from fem.deck.case_control import Subcase
+    from fem.deck.control.subcase import Subcase
     from fem.deck.deck import Deck
     from fem.elements.block import ElementBlock
 

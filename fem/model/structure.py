@@ -34,7 +34,7 @@ from fem.model.weight import Weight
 
 if TYPE_CHECKING:
     from fem.algebra.linear_solver import SolverName
-    from fem.deck.case_control import Subcase
+    from fem.deck.control.subcase import Subcase
     from fem.deck.deck import Deck
     from fem.elements.block import ElementBlock
 

@@ -17,7 +17,7 @@ import scipy.sparse as sp
 
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Float64, Int64
-from fem.deck.case_sets import Selection
+from fem.deck.control.case_sets import Selection
 from fem.elements.block import CENTRE, Detail, ElementBlock, Kind, Recovery
 from fem.elements.lines.beam_stations import StationRecovery
 from fem.geometry.points import Points

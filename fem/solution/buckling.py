@@ -13,7 +13,7 @@ import scipy.sparse as sp
 from fem.algebra.buckling import Buckling, buckling_factors
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.arrays import Float64, Int64
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 from fem.deck.records import topologies
 from fem.errors import InputError

@@ -4,8 +4,9 @@ import numpy as np
 
 from fem.algebra.components import Component
 from fem.arrays import Int64
-from fem.deck.case_control import Subcase
-from fem.deck.superelement_sets import Superelement, subcase_of
+from fem.deck.control.subcase import Subcase
+from fem.deck.deck import Superelement
+from fem.deck.superelements.subcases import subcase_of
 from fem.errors import InputError
 from fem.model.structure import Structure
 from fem.solution.eigrl import request

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 
 NOTICE = (

@@ -20,7 +20,7 @@ from fem.algebra.frequency_response import (
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.modes import Modes
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.loads.frequencies import frequencies

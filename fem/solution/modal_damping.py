@@ -3,7 +3,7 @@
 import numpy as np
 
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
 

@@ -9,7 +9,7 @@ from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.modes import Modes, ModesError, normal_modes
 from fem.algebra.participation import participation
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile

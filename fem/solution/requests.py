@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from fem.deck.case_control import Subcase
-from fem.deck.case_sets import Selection
 from fem.deck.checks import FREQUENCIES
+from fem.deck.control.case_sets import Selection
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
 from fem.errors import InputError

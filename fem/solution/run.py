@@ -8,12 +8,13 @@ from time import perf_counter
 import numpy as np
 
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase, read_case_control
+from fem.deck.control.case_control import read_case_control
+from fem.deck.control.executive import read_executive
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
-from fem.deck.executive import read_executive
-from fem.deck.sections import Sections, split_sections
-from fem.deck.source import read_source
-from fem.deck.superelement_sets import split_subcases
+from fem.deck.superelements.subcases import split_subcases
+from fem.deck.text.sections import Sections, split_sections
+from fem.deck.text.source import read_source
 from fem.errors import InputError, by_kind
 from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure

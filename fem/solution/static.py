@@ -12,7 +12,7 @@ from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.statics import inertia_relief, solve_static
 from fem.arrays import Float64
 from fem.constraints.elimination import Elimination
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.errors import InputError
 from fem.files.hdf5 import ResultFile
 from fem.loads import enforced_displacements, static_element_loads, static_load

@@ -13,8 +13,8 @@ import scipy.sparse as sp
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Float64
-from fem.deck.case_control import Subcase
-from fem.deck.case_sets import Selection
+from fem.deck.control.case_sets import Selection
+from fem.deck.control.subcase import Subcase
 from fem.elements.block import Kind
 from fem.errors import InputError
 from fem.files.force_histories import (

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from fem.deck.fields import Fields
-from fem.deck.lexer import RawCard
-from fem.deck.values import Malformed
+from fem.deck.text.fields import Fields
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.values import Malformed
 
 _SYMMETRIC = 6
 

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from fem.deck.values import Malformed, real
+from fem.deck.text.values import Malformed, real
 
 Columns = dict[str, list]
 Problems = list[str]

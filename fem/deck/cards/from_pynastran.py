@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from fem.deck.values import Malformed
+from fem.deck.text.values import Malformed
 
 Rows = list[dict[str, Any]]
 

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from fem.deck.fields import Fields
-from fem.deck.values import Malformed
+from fem.deck.text.fields import Fields
+from fem.deck.text.values import Malformed
 
 Rows = list[dict[str, Any]]
 

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from fem.cross_sections.library import DIMENSIONS, Section, section
-from fem.deck.fields import Fields
-from fem.deck.values import Malformed
+from fem.deck.text.fields import Fields
+from fem.deck.text.values import Malformed
 
 Row = dict[str, Any]
 Rows = list[Row]

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Literal
 
-from fem.deck.conversions import Convert
-from fem.deck.fields import Fields
-from fem.deck.lexer import RawCard
+from fem.deck.cards.conversions import Convert
 from fem.deck.records.field import Field, layout
+from fem.deck.text.fields import Fields
+from fem.deck.text.lexer import RawCard
 
 Row = dict[str, Any]
 Pair = tuple[int, int]

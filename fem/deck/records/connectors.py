@@ -2,8 +2,7 @@
 
 from functools import partial
 
-from fem.deck import conversions
-from fem.deck.cards import finish, general_element, welds
+from fem.deck.cards import conversions, finish, general_element, welds
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 from fem.deck.records.lines import BAR_FORCE
 from fem.deck.records.scalars import BUSH_FORCE

@@ -1,7 +1,6 @@
 """Rigid elements, constraints, sets of a reduction."""
 
-from fem.deck import conversions
-from fem.deck.cards import finish, from_pynastran, lists, rigid_bodies
+from fem.deck.cards import conversions, finish, from_pynastran, lists, rigid_bodies
 from fem.deck.records.card import Card
 
 _GROUP, _SETS = "Rigid elements, constraints", "Sets of a reduction"

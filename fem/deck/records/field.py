@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from fem.deck.values import CONVERTERS
+from fem.deck.text.values import CONVERTERS
 
 _FIELD = re.compile(
     r"(?P<name>\w+):(?P<kind>[ifcsu*])(?:=(?P<default>[^\[>]*))?"

@@ -2,8 +2,7 @@
 
 from functools import partial
 
-from fem.deck import conversions
-from fem.deck.cards import finish, lists, masses
+from fem.deck.cards import conversions, finish, lists, masses
 from fem.deck.records.card import Card, Element, Topology
 
 _GROUP = "Masses"

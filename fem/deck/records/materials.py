@@ -1,7 +1,6 @@
 """Materials, and matrices given directly."""
 
-from fem.deck import conversions
-from fem.deck.cards import dmig, lists
+from fem.deck.cards import conversions, dmig, lists
 from fem.deck.records.card import Card
 
 _GROUP = "Materials"

@@ -1,7 +1,6 @@
 """Modes, lines of plots, monitor points."""
 
-from fem.deck import conversions
-from fem.deck.cards import finish, from_pynastran, monitors
+from fem.deck.cards import conversions, finish, from_pynastran, monitors
 from fem.deck.records.card import Card, Element, Topology
 
 _MODES, _MONITORS = "Modes", "Monitor points (of landings)"

@@ -2,8 +2,7 @@
 
 from functools import partial
 
-from fem.deck import conversions
-from fem.deck.cards import finish, lists
+from fem.deck.cards import conversions, finish, lists
 from fem.deck.records.card import Card
 
 _GROUP = "Points, frames"

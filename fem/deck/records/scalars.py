@@ -6,8 +6,7 @@ spelled.
 
 from functools import partial
 
-from fem.deck import conversions
-from fem.deck.cards import finish, from_pynastran, lists
+from fem.deck.cards import conversions, finish, from_pynastran, lists
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 
 _GROUP = "Springs, dampers"

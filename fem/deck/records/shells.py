@@ -2,8 +2,7 @@
 
 from dataclasses import replace
 
-from fem.deck import conversions
-from fem.deck.cards import finish, laminates
+from fem.deck.cards import conversions, finish, laminates
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 
 _GROUP = "Shells, panels"

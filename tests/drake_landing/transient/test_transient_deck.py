@@ -12,7 +12,7 @@ from drake_landing.transient.deck import (
     transient_deck,
     write_transient_deck,
 )
-from fem.deck.case_control import Subcase
+from fem.deck.control.subcase import Subcase
 from fem.errors import InputError
 
 TINY = Path(__file__).parents[1] / "tiny_aircraft.bdf"

@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fem.deck.equations import evaluate
-from fem.deck.lexer import read_cards
-from fem.deck.source import Line
-from fem.deck.values import Malformed
+from fem.deck.text.lexer import read_cards
+from fem.deck.text.source import Line
+from fem.deck.text.values import Malformed
 
 
 @pytest.mark.parametrize(

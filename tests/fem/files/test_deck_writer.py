@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fem.deck.values import real as value_of
+from fem.deck.text.values import real as value_of
 from fem.files.deck_writer import (
     card,
     case_set,

@@ -19,9 +19,9 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
+from fem.deck.control.executive import Executive
 from fem.deck.deck import Deck
-from fem.deck.executive import Executive
-from fem.deck.source import found_file
+from fem.deck.text.source import found_file
 from fem.errors import InputError
 from fem.matrix_files.named import NamedMatrix
 from fem.matrix_files.output4 import read_output4

@@ -16,8 +16,8 @@ import pandas as pd
 
 from fem.arrays import Float64
 from fem.deck.deck import Deck
-from fem.deck.lexer import Bulk, RawCard
 from fem.deck.records import CARDS
+from fem.deck.text.lexer import Bulk, RawCard
 from fem.geometry.coordinates import resolve
 
 _TYPES = ("REPEAT", "MIRROR")

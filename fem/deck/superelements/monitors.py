@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 import pandas as pd
 
-from fem.deck.superelement_ids import Tables
+from fem.deck.superelements.ids import Tables
 
 _MONITORS = ("MONPNT1", "MONPNT3")
 

@@ -3,35 +3,32 @@
 The parts are placed (SELOC), their points joined, by SECONCT or where they coincide,
 and solved with the residual structure. In statics that is what their reduction gives;
 for modes and dynamics each part says which of its points are interior, and by which
-coordinates it is reduced (`superelement_sets`).
+coordinates it is reduced (`main_section`).
 
 Points, elements, properties, materials and coordinate systems of a part whose ids are
 in use get an offset. The basic frame of a part that is turned becomes a coordinate
 system, and what refers to the basic frame refers to it: nothing else has to be turned.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
-from scipy.spatial import cKDTree
 
-from fem.arrays import Float64
-from fem.deck.deck import Deck
-from fem.deck.superelement_ids import (
+from fem.deck.deck import Deck, Superelement
+from fem.deck.superelements.ids import (
     Tables,
-    columns_with_ids,
     ids_of_kind,
     offsets,
     renamed,
     shifts_said,
 )
-from fem.deck.superelement_matrices import TYPES as EXTERNAL
-from fem.deck.superelement_monitors import with_monitors
-from fem.deck.superelement_sets import Superelement
+from fem.deck.superelements.joining import join_points, merge_points
+from fem.deck.superelements.matrices import TYPES as EXTERNAL
+from fem.deck.superelements.monitors import with_monitors
+from fem.deck.superelements.placing import part_frame
 from fem.errors import InputError
-from fem.geometry.coordinates import resolve
 
 # What serves the reduction of a part and changes nothing in the whole.
 _OF_REDUCTION = (
@@ -48,8 +45,6 @@ _OF_REDUCTION = (
 )
 # They act on all masses of a model, there on those of their part.
 _INERTIAL = ("GRAV", "RFORCE", "ACCEL1")
-_TOLERANCE = 1e-5
-_Point = tuple[int, int]  # superelement, id
 
 
 @dataclass(frozen=True)
@@ -79,7 +74,7 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
     grid_lists: set[int] = set()
     for number, part in sorted(parts.items()):
         own = {k: v for k, v in part.cards.items() if k not in _OF_REDUCTION}
-        frame = _placing(deck, part, number, problems)
+        frame = part_frame(deck, part, number, problems)
         maps[number] = offsets(tables, own, number)
         shifted = maps[number]["element"] or maps[number]["property"]
         if shifted and (len(own["NSM"]) or len(own["NSML"])):
@@ -101,8 +96,8 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
     cards = _stacked(tables, external, problems)
     if problems:
         return Whole(cards, problems, notices)
-    joined = _joined(deck, given, maps, cards, problems)
-    cards = _merged(cards, joined, problems, grid_lists)
+    joined = join_points(deck, given, maps, cards, problems)
+    cards = merge_points(cards, joined, problems, grid_lists)
     own = sorted(set(parts) - _of_types(deck, EXTERNAL))
     found = [_component(n, parts[n], maps[n], joined) for n in own]
     cards["QSET"] = with_modal(cards["QSET"], found)
@@ -197,65 +192,6 @@ def _points(deck: Deck) -> set[int]:
     return {*grids, *deck.cards["SPOINT"]["id"].tolist()}
 
 
-def _places(deck: Deck) -> pd.DataFrame:
-    """Grids and POINTs, which serve as places."""
-    columns = ["id", "cp", "x1", "x2", "x3", "cd"]
-    points = deck.cards["POINT"].assign(cd=0)
-    grids = deck.cards["GRID"]
-    if points.empty:
-        return grids
-    both = [grids[columns], points[columns]]
-    return pd.DataFrame(pd.concat(both, ignore_index=True))
-
-
-# -- places ---------------------------------------------------------------------------
-
-
-def _placing(
-    deck: Deck, part: Deck, number: int, problems: list[str]
-) -> tuple[Float64, Float64] | None:
-    """Axes (3, 3) and origin (3,) of the part's basic frame in the main one."""
-    rows = deck.cards["SELOC"]
-    rows = rows[rows["seid"] == number]
-    if rows.empty:
-        return None
-    row = rows.iloc[0]
-    name = f"{row['file']}:{row['line']}: SELOC {number}"
-    found = []
-    for own, which in ((part, "pa"), (deck, "pb")):
-        ids = [int(row[f"{which}{k}"]) for k in (1, 2, 3)]
-        grid = _places(own)
-        absent = [str(i) for i in ids if i not in set(grid["id"])]
-        if absent:
-            where = "the superelement" if own is part else "the main bulk data"
-            problems.append(f"{name}: grid {', '.join(absent)} is not in {where}")
-            return None
-        _, xyz = resolve(own.cards["CORD"], grid)
-        found.append(xyz[[grid["id"].tolist().index(i) for i in ids]])
-    (first, own), (second, main) = ((_triad(xyz), xyz) for xyz in found)
-    sides = [np.linalg.norm(np.roll(x, 1, axis=0) - x, axis=1) for x in (own, main)]
-    if np.isnan(first).any() or np.isnan(second).any():
-        problems.append(f"{name}: its three points lie on a line")
-        return None
-    if np.abs(sides[0] - sides[1]).max() > 1e-3 * sides[0].max():
-        problems.append(
-            f"{name}: its points are {sides[0].tolist()} apart in the superelement and "
-            f"{sides[1].tolist()} in the main bulk data, expected the same triangle"
-        )
-    axes = second @ first.T
-    return axes, main[0] - axes @ own[0]
-
-
-def _triad(xyz: Float64) -> Float64:
-    """(3, 3) axes as columns: x from the first point to the second, y to the third."""
-    x, v = xyz[1] - xyz[0], xyz[2] - xyz[0]
-    z = np.cross(x, v)
-    if np.linalg.norm(z) < 1e-9 * np.linalg.norm(x) * np.linalg.norm(v):
-        return np.full((3, 3), np.nan)
-    x, z = x / np.linalg.norm(x), z / np.linalg.norm(z)
-    return np.stack([x, np.cross(z, x), z], axis=1)
-
-
 # -- together -------------------------------------------------------------------------
 
 
@@ -293,148 +229,6 @@ def _stacked(
             stacked = stacked[~text.duplicated()].reset_index(drop=True)
         cards[name] = stacked
     return cards
-
-
-def _joined(
-    deck: Deck,
-    given: Mapping[int, set[int]],
-    maps: Mapping[int, Mapping[str, int]],
-    cards: Tables,
-    problems: list[str],
-) -> dict[int, int]:
-    """Point -> the point of another part that takes its place."""
-
-    def name(point: _Point) -> int:
-        return point[1] + maps[point[0]].get("point", 0)
-
-    pairs = []
-    for _, row in deck.cards["SECONCT"].iterrows():
-        for ends in zip(row["gidas"].tolist(), row["gidbs"].tolist()):
-            points = list(zip((int(row["sea"]), int(row["seb"])), ends))
-            absent = [p for p in points if p[1] not in given.get(p[0], set())]
-            if absent:
-                problems.append(
-                    f"{row['file']}:{row['line']}: SECONCT: superelement "
-                    f"{absent[0][0]} has no point {absent[0][1]}"
-                )
-            else:
-                pairs.append((name(points[0]), name(points[1])))
-    manual = deck.cards["SEBULK"]
-    manual = set(manual["seid"][manual["method"].str.startswith("MAN")].tolist())
-    owner = {name((n, i)): n for n, ids in given.items() for i in ids}
-    pairs += [
-        (a, b)
-        for a, b in _coincident(cards, owner, deck.cards["SEBULK"])
-        if not manual & {owner[a], owner[b]}
-    ]
-    order = sorted(owner, key=lambda point: (owner[point], point))
-    rank = {point: k for k, point in enumerate(order)}
-    home = {point: point for point in owner}
-
-    def root(point: int) -> int:
-        while home[point] != point:
-            point = home[point]
-        return point
-
-    for a, b in pairs:
-        first, second = sorted((root(a), root(b)), key=rank.__getitem__)
-        home[second] = first
-    return {point: root(point) for point in owner if root(point) != point}
-
-
-def _coincident(
-    cards: Tables, owner: Mapping[int, int], sebulk: pd.DataFrame
-) -> Iterator[tuple[int, int]]:
-    """Pairs of grids of different superelements at one place."""
-    grid = cards["GRID"]
-    _, xyz = resolve(cards["CORD"], grid)
-    tolerance = float(sebulk["tol"].max()) if len(sebulk) else _TOLERANCE
-    ids = grid["id"].tolist()
-    for a, b in sorted(cKDTree(xyz).query_pairs(tolerance)):
-        if owner[ids[a]] != owner[ids[b]]:
-            yield ids[a], ids[b]
-
-
-def _merged(
-    cards: Tables, joined: Mapping[int, int], problems: list[str], lists: set[int]
-) -> Tables:
-    """Tables in which joined points are one; those with axes of their own are tied.
-
-    `lists` are the SET1 that hold points.
-    """
-    grid = cards["GRID"]
-    frames, xyz = resolve(cards["CORD"], grid)
-    at = {int(i): k for k, i in enumerate(grid["id"])}
-    cd = np.maximum(grid["cd"].to_numpy(np.int64), 0)
-    axes = frames.triads(cd, xyz)
-    replaced, tied = {}, []
-    for point, other in joined.items():
-        alike = (point in at) == (other in at)
-        if not alike:
-            problems.append(f"SECONCT: {point} and {other}: a grid and a scalar point")
-        elif point in at and not np.allclose(axes[at[point]], axes[at[other]]):
-            tied.append((point, other))
-        else:
-            replaced[point] = other
-    if problems:
-        return cards
-    merged = {
-        name: _with_points(name, table, replaced) for name, table in cards.items()
-    }
-    sets = merged["SET1"] = merged["SET1"].copy()
-    sets["ids"] = [
-        tuple(replaced.get(i, i) for i in ids) if number in lists else ids
-        for number, ids in zip(sets["sid"], sets["ids"])
-    ]
-    for name in ("GRID", "SPOINT"):
-        table = merged[name]
-        merged[name] = table[~table["id"].isin(list(replaced))].reset_index(drop=True)
-    grid = merged["GRID"]
-    for point, other in replaced.items():
-        if point in at:
-            digits = {*cards["GRID"]["ps"][at[point]]}
-            row = grid.index[grid["id"] == other][0]
-            grid.at[row, "ps"] = "".join(sorted(digits | {*grid.at[row, "ps"]}))
-    merged["RBE2"] = _with_ties(merged["RBE2"], tied, ids_of_kind(merged, "element"))
-    return merged
-
-
-def _with_points(
-    name: str, table: pd.DataFrame, replaced: Mapping[int, int]
-) -> pd.DataFrame:
-    """A table in which other points stand for those that are replaced."""
-    if not replaced or name in ("GRID", "SPOINT"):
-        return table
-    table = table.copy()
-    for column, kind in columns_with_ids(name):
-        if kind != "point" or column not in table:
-            continue
-        values = table[column]
-        if values.dtype != object:
-            table[column] = values.replace(replaced)
-            continue
-        changed = np.empty(len(values), dtype=object)
-        for row, value in enumerate(values):
-            ids = np.asarray(value, dtype=np.int64)
-            changed[row] = np.array([replaced.get(int(i), int(i)) for i in ids.ravel()])
-        table[column] = changed
-    return table
-
-
-def _with_ties(
-    table: pd.DataFrame, tied: list[tuple[int, int]], taken: set[int]
-) -> pd.DataFrame:
-    """RBE2 with those between joined grids whose displacement axes differ."""
-    if not tied:
-        return table
-    start = max(taken, default=0) + 1
-    rows = [
-        {"eid": start + k, "gn": other, "cm": "123456", "gms": np.array([point])}
-        for k, (point, other) in enumerate(tied)
-    ]
-    new = pd.DataFrame(rows).assign(file="", line=0, card="RBE2")
-    new = new.reindex(columns=[c for c in new if c in table])
-    return pd.concat([table, new], ignore_index=True)
 
 
 def in_one_piece(deck: Deck, parts: Mapping[int, Deck]) -> tuple[Deck, Whole]:

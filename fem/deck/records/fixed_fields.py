@@ -3,9 +3,9 @@
 import math
 from collections.abc import Sequence
 
-from fem.deck.lexer import RawCard
 from fem.deck.records.field import Field, Layout, layout
-from fem.deck.values import CONVERTERS, Malformed
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.values import CONVERTERS, Malformed
 
 _EXPECTED = {
     "i": "an integer",

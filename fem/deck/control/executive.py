@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from fem.deck.source import Line
+from fem.deck.text.source import Line
 from fem.errors import nearest
 
 _SOL = re.compile(r"\s*SOL\s*[=,]?\s*'?([A-Z0-9_]+)", re.I)

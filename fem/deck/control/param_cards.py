@@ -2,10 +2,10 @@
 
 from collections.abc import Iterable, Sequence
 
-from fem.deck.lexer import RawCard
-from fem.deck.param_names import DEFAULTS, WITHOUT_EFFECT, Value, convert
-from fem.deck.source import Line
-from fem.deck.values import Malformed, integer, real
+from fem.deck.control.param_names import DEFAULTS, WITHOUT_EFFECT, Value, convert
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.source import Line
+from fem.deck.text.values import Malformed, integer, real
 
 
 def read_parameters(

@@ -7,8 +7,8 @@ from typing import TypeVar
 import numpy as np
 
 from fem.arrays import Int64
-from fem.deck.lexer import RawCard
-from fem.deck.values import Malformed, components, integer, real, word
+from fem.deck.text.lexer import RawCard
+from fem.deck.text.values import Malformed, components, integer, real, word
 
 T = TypeVar("T")
 

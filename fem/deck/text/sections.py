@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
-from fem.deck.source import Line
+from fem.deck.text.source import Line
 from fem.errors import InputError
 
 _CEND = re.compile(r"\s*CEND\b", re.I)

@@ -10,9 +10,9 @@ from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 
-from fem.deck.replication import repetitions, replicate
-from fem.deck.source import Line
-from fem.deck.values import Malformed
+from fem.deck.text.replication import repetitions, replicate
+from fem.deck.text.source import Line
+from fem.deck.text.values import Malformed
 
 _MOST_UNREAD = 20  # lines that are listed
 _SEPARATOR = re.compile(r"\s*,\s*|\s+")

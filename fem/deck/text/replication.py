@@ -7,7 +7,7 @@ line `=(n)` or `=n` repeats the last replication n times.
 import re
 from collections.abc import Sequence
 
-from fem.deck.values import Malformed, integer, real
+from fem.deck.text.values import Malformed, integer, real
 
 _REPEAT = re.compile(r"=\(?(\d{1,6})\)?$")
 _STEP = re.compile(r"\*\(?([^()]+)\)?$")

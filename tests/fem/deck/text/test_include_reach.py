@@ -7,7 +7,7 @@ import pytest
 
 from fem.cli import _status
 from fem.deck.reader import read_deck
-from fem.deck.source import include_reach, read_source
+from fem.deck.text.source import include_reach, read_source
 from fem.errors import InputError
 
 SECRET = "root:x:0:0 secret\nuser:y:1:1 secret\n"

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from fem.deck.lexer import read_cards
 from fem.deck.reader import read_deck
-from fem.deck.source import Line
-from fem.deck.values import Malformed, integer, real
+from fem.deck.text.lexer import read_cards
+from fem.deck.text.source import Line
+from fem.deck.text.values import Malformed, integer, real
 from fem.errors import InputError
 
 

@@ -1,0 +1,1 @@
+"""What a deck asks for: executive control, case control, parameters."""

@@ -1,0 +1,1 @@
+"""Superelements: parts, images, external matrices, put together as one model."""
