@@ -97,3 +97,23 @@ def bending_along(section: ShellSection, direction: Float64) -> Float64:
     )
     there = a > 0.0
     return d - np.where(there, b * b / np.where(there, a, 1.0), 0.0)
+
+
+def section_flexibility(section: ShellSection) -> Float64:
+    """(e, 6, 6), see `plate_flexibility`."""
+    return plate_flexibility(section.membrane, section.coupling, section.bending)
+
+
+def plate_flexibility(a: Float64, b: Float64, d: Float64) -> Float64:
+    """(e, 6, 6) pseudo-inverse of [A B; B D], scaled to be independent of units.
+
+    Args:
+        a, b, d: (e, 3, 3); an absent one is zero, and gives no strain.
+    """
+    joined = np.concatenate(
+        [np.concatenate([a, b], axis=2), np.concatenate([b, d], axis=2)], axis=1
+    )
+    scale = np.sqrt(np.einsum("eii->ei", joined))
+    scale = np.where(scale > 0.0, scale, 1.0)
+    both = scale[:, :, None] * scale[:, None, :]
+    return np.linalg.pinv(joined / both, hermitian=True, rcond=1e-12) / both

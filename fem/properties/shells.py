@@ -27,6 +27,7 @@ from fem.properties.shell_expansion import (
 )
 from fem.properties.shell_section import (
     ShellSection,
+    plate_flexibility,
     turned_flexibility,
     turned_stiffness,
 )
@@ -98,6 +99,18 @@ class ShellProperty:
                 for part in parts
             )
         )
+
+    def ply_map(self, *, strain: bool = False) -> Float64:
+        """(p, 5, 8) ply results of a laminate from resultants, see `Laminate.recovery`.
+
+        Without a laminate an error of the program.
+        """
+        assert self.laminate is not None
+        one = np.s_[None]
+        flexible = plate_flexibility(
+            self.membrane[one], self.coupling[one], self.bending[one]
+        )
+        return self.laminate.recovery(flexible[0], strain=strain)
 
 
 def read_shell_properties(

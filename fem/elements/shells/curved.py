@@ -57,9 +57,13 @@ from fem.elements.shells.quadratic_surface import (
     fitted,
     turned,
 )
-from fem.elements.shells.shell import Shell, section_flexibility
+from fem.elements.shells.shell import Shell
 from fem.elements.shells.shell_preload import across, add_turning
-from fem.properties.shell_section import ShellSection, bending_along
+from fem.properties.shell_section import (
+    ShellSection,
+    bending_along,
+    section_flexibility,
+)
 from fem.properties.shells import sections
 
 _RIGID_SHEAR = 1e-5  # of area / D: flexibility of plates without MID3, as good as none

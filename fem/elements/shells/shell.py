@@ -14,12 +14,11 @@ from fem.deck.records.shells import PLY_STRAIN, PLY_STRESS, SHELL_FORCE, of_plie
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.drilling_membrane import DrillingInPlane, drilling_in_plane
+from fem.elements.shells.expansion import curled, stretched, warmed
 from fem.elements.shells.failure_recovery import FailureRecovery, failure_names
 from fem.elements.shells.shell_drilling import drilling
 from fem.elements.shells.shell_geometry import (
     Facet,
-    corner_gradients,
-    corner_spin,
     facet,
     matrix_to_grids,
     to_grids,
@@ -36,7 +35,12 @@ from fem.elements.shells.shell_recovery import (
 )
 from fem.elements.shells.shell_shear import shear
 from fem.properties.shell_expansion import residual_map
-from fem.properties.shell_section import ShellSection, strain_rotation, vector_rotation
+from fem.properties.shell_section import (
+    ShellSection,
+    section_flexibility,
+    strain_rotation,
+    vector_rotation,
+)
 from fem.properties.shells import ShellProperty
 
 # Elements that are computed at a time: their arrays stay in the cache.
@@ -112,38 +116,19 @@ class Shell(DenseBlock):
     def uneven(self, temperature: Float64) -> Float64:
         """(e, 6 n) what temperatures (e, n) of the grids add to those of their mean.
 
-        Of CQUAD4: the strain e T(x, y) of a linear T about the middle of its corners
-        moves a free sheet by u = e_xx (T_x x^2 / 2 + T_y x y) + (e_xy T_y - e_yy T_x)
-        y^2 / 2, v alike; turned as its corners turn, so that the drilling penalty is
-        silent. On rectangles the load is a commercial solver's to six digits; on other
-        shapes it follows from the same field.
+        Of CQUAD4 (`warmed`); nothing of the others.
         """
-        shape = self.shape
-        moved = np.zeros((len(self.id), self.dof.shape[1] // 6, 6))
-        beyond = temperature - temperature.mean(axis=1, keepdims=True)
-        beyond = np.nan_to_num(beyond)
-        flat = moved.shape[1] == 4 and not self.drills
-        if not flat or not beyond.any():
-            return moved.reshape(len(moved), -1)
-        xy = shape.xy - shape.xy.mean(axis=1, keepdims=True)
-        slope = np.einsum("ein,en->ei", np.linalg.pinv(xy), beyond)
-        xx, yy, both = self._free("strain", 0).T[..., None]
-        tx, ty = slope.T[..., None]
-        x, y = np.moveaxis(xy, -1, 0)
-        u = xx * (0.5 * tx * x + ty * y) * x + 0.5 * (both * ty - yy * tx) * y**2
-        v = yy * (0.5 * ty * y + tx * x) * y + 0.5 * (both * tx - xx * ty) * x**2
-        shift = np.stack([u, v], axis=-1)
-        spin = np.einsum("eijc,ejc->ei", corner_spin(corner_gradients(shape)), shift)
-        moved[..., :3] = shift @ shape.axes[:, :2]
-        moved[..., 3:] = spin[..., None] * shape.axes[:, 2:]
-        return moved.reshape(len(moved), -1)
+        flat = self.dof.shape[1] == 24 and not self.drills
+        if not flat:
+            return np.zeros(self.dof.shape)
+        return warmed(self.shape, self._free("strain", 0), temperature)
 
     def _expanded(self, load: int) -> Float64:
         """(e, 6 n) by one degree (0), or by one degree per length along z (1)."""
         strain, curvature = (self._free(name, load) for name in _FREE)
-        return (self._stretched(strain) + self._curled(curvature)).reshape(
-            len(self.id), -1
-        )
+        shape, grids = self.shape, self.expanding
+        moved = stretched(shape, grids, strain) + curled(shape, grids, curvature)
+        return moved.reshape(len(self.id), -1)
 
     def _free(self, name: str, load: int) -> Float64:
         """(e, 3) strain or curvature of free elements, element axes."""
@@ -153,44 +138,6 @@ class Shell(DenseBlock):
         power = {"strain": load, "curvature": load - 1}[name]
         scaled = own[self.which] * ratio[:, None] ** power
         return np.einsum("eij,ej->ei", strain_rotation(-self.angle), scaled)
-
-    def _stretched(self, strain: Float64) -> Float64:
-        """(e, n, 6) motion of the grids by a strain xx yy xy (e, 3)."""
-        xx, yy, xy = strain.T
-        tensor = np.zeros((len(self.id), 3, 3))
-        tensor[:, 0, 0], tensor[:, 1, 1] = xx, yy
-        tensor[:, 0, 1] = tensor[:, 1, 0] = 0.5 * xy
-        tensor[:, 2, 2] = 0.5 * (xx + yy)
-        axes = self.shape.axes
-        arm = self.expanding - self.expanding.mean(axis=1, keepdims=True)
-        moved = np.zeros((*arm.shape[:2], 6))
-        moved[..., :3] = arm @ (axes.transpose(0, 2, 1) @ tensor @ axes)
-        return moved
-
-    def _curled(self, curvature: Float64) -> Float64:
-        """(e, n, 6) motion of the grids by a curvature xx yy xy (e, 3) about z.
-
-        Without shear: w = -(k_xx x^2 + k_yy y^2 + k_xy x y) / 2.
-        """
-        shape = self.shape
-        moved = np.zeros((*self.expanding.shape[:2], 6))
-        if not curvature.any():
-            return moved
-        if self.expanding.shape[1] != shape.corners:
-            moved[curvature.any(axis=1)] = np.nan
-            return moved
-        x, y = np.moveaxis(shape.xy, -1, 0)
-        xx, yy, xy = curvature.T[..., None]
-        along = xx * x + 0.5 * xy * y, yy * y + 0.5 * xy * x
-        zero = np.zeros_like(x)
-        turn = np.stack([-along[1], along[0], zero], axis=-1)
-        shift = np.stack([zero, zero, -0.5 * (along[0] * x + along[1] * y)], axis=-1)
-        # The grid is the root of the arm to the reference surface.
-        arm = np.zeros_like(turn)
-        arm[..., 2] = shape.offset[:, None]
-        shift = shift - np.cross(turn, arm)
-        moved[..., :3], moved[..., 3:] = shift @ shape.axes, turn @ shape.axes
-        return moved
 
     @property
     def expanding(self) -> Float64:
@@ -362,7 +309,7 @@ class Shell(DenseBlock):
 
     def _plies(self, *, strain: bool = False) -> Recovery:
         """Ply results from the resultants at the centre, turned to material axes."""
-        found = [ply_map(p, strain=strain) for p in self.properties]
+        found = [p.ply_map(strain=strain) for p in self.properties]
         most = max(map(len, found))
         maps = np.full((len(found), 5 * most, 8), np.nan)
         for k, ply in enumerate(found):
@@ -395,7 +342,7 @@ class Shell(DenseBlock):
         if not any(failures):
             return None
         maps = [
-            np.stack([ply_map(p), ply_map(p, strain=True)], axis=1)
+            np.stack([p.ply_map(), p.ply_map(strain=True)], axis=1)
             for p in self.properties
         ]
         return FailureRecovery(
@@ -422,29 +369,3 @@ class Shell(DenseBlock):
             for p in self.properties
             if p.laminate is not None and p.expansion.plies is not None
         )
-
-
-def ply_map(found: ShellProperty, *, strain: bool = False) -> Float64:
-    """(p, 5, 8) ply results of a laminate from resultants, see `Laminate.recovery`."""
-    assert found.laminate is not None
-    one = np.s_[None]
-    flexible = _flexibility(
-        found.membrane[one], found.coupling[one], found.bending[one]
-    )
-    return found.laminate.recovery(flexible[0], strain=strain)
-
-
-def section_flexibility(section: ShellSection) -> Float64:
-    """(e, 6, 6), see `Shell.flexibility`."""
-    return _flexibility(section.membrane, section.coupling, section.bending)
-
-
-def _flexibility(a: Float64, b: Float64, d: Float64) -> Float64:
-    """(e, 6, 6) pseudo-inverse of [A B; B D], scaled to be independent of units."""
-    joined = np.concatenate(
-        [np.concatenate([a, b], axis=2), np.concatenate([b, d], axis=2)], axis=1
-    )
-    scale = np.sqrt(np.einsum("eii->ei", joined))
-    scale = np.where(scale > 0.0, scale, 1.0)
-    both = scale[:, :, None] * scale[:, None, :]
-    return np.linalg.pinv(joined / both, hermitian=True, rcond=1e-12) / both
