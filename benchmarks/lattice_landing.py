@@ -40,7 +40,7 @@ from systems.airframe.flexible_airframe import FlexibleAirframe
 from systems.airframe.modal_body import ModalBody
 from systems.shock_absorber.gas_spring import GasSpring
 from systems.shock_absorber.shock_absorber import ShockAbsorber
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.slip import SineSlip
 from systems.tire.tire import Tire
 from systems.tire.tire_parameters import TireParameters

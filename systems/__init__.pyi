@@ -34,10 +34,10 @@ from .shock_absorber.shock_absorber import ShockAbsorber as ShockAbsorber
 from .shock_absorber.shock_absorber import ShockAbsorber_ as ShockAbsorber_
 from .shock_absorber.shock_absorber import StrutState as StrutState
 from .shock_absorber.side_load import SideLoad as SideLoad
-from .shock_absorber.strut_law import (
+from .shock_absorber.strut_parameters import (
     ShockAbsorberParameters as ShockAbsorberParameters,
 )
-from .shock_absorber.strut_law import (
+from .shock_absorber.strut_parameters import (
     ShockAbsorberTunables as ShockAbsorberTunables,
 )
 from .tire.magic_formula import MagicFormula as MagicFormula

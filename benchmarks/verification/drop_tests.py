@@ -6,7 +6,7 @@ import numpy as np
 
 from benchmarks.verification.row import Row, figure
 from systems.shock_absorber.gas_spring import GasSpring
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.tire_parameters import TireParameters, inflated_stiffness
 from systems.tools.table import Table
 from tests.systems.drop_rig import Rig, drop

@@ -2,7 +2,8 @@
 
 from benchmarks.verification.row import LINES, Row, figure
 from benchmarks.verification.runner import run
-from fem.cross_sections.library import DIMENSIONS, section
+from fem.cross_sections.library import section
+from fem.cross_sections.shapes import DIMENSIONS
 from fem.cross_sections.shear_factors import SOURCES
 
 # Dimensions, J, K1, K2 as printed for an entry PBAR or PBEAM.

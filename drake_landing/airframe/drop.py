@@ -22,7 +22,8 @@ from drake_landing.gears.parameters import (
 )
 from fem.errors import InputError
 from systems.runway.runway import Runway
-from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.tire_law import TireLaw
 from systems.tire.tire_parameters import TireParameters
 

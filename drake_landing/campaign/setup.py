@@ -38,7 +38,7 @@ from drake_landing.gears.bodies import mass_points
 from drake_landing.parts.cuts import BeamCuts
 from drake_landing.parts.monitors import Station, without_maps
 from drake_landing.parts.slices import balanced
-from drake_landing.parts.stress import StressPart
+from drake_landing.parts.stress_maps import StressPart
 from drake_landing.parts.stress_rows import Map, StressRows, stress_maps
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import parts_watch

@@ -28,7 +28,7 @@ from drake_landing.gears.systems import AddGearSystems
 from drake_landing.integrators import DEFAULT
 from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
-from systems.shock_absorber.strut_law import ShockAbsorberTunables
+from systems.shock_absorber.strut_parameters import ShockAbsorberTunables
 from systems.tools.checks import require
 
 

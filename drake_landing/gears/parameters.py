@@ -14,7 +14,7 @@ from systems.runway.runway import Runway
 from systems.shock_absorber.gas_spring import GasSpring, SecondChamber
 from systems.shock_absorber.orifice_damper import Metering
 from systems.shock_absorber.orifice_network import OrificeNetwork
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.aircraft_tire import (
     SMALL_SLIP_TRAIL,
     TireSize,

@@ -20,7 +20,7 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.integrators import DEFAULT
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.start import set_scenario_state
-from systems.shock_absorber.strut_law import ShockAbsorberTunables
+from systems.shock_absorber.strut_parameters import ShockAbsorberTunables
 from systems.tire.tire import TireTunables
 
 

@@ -16,8 +16,9 @@ import numpy.typing as npt
 import scipy.sparse as sp
 
 from drake_landing.parts.element_maps import DenseRows
-from drake_landing.parts.stress import Stresses, StressPart
+from drake_landing.parts.stress import Stresses
 from drake_landing.parts.stress_kernels import of_displacements, of_rows
+from drake_landing.parts.stress_maps import StressPart
 from fem.algebra.extension import Extension
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Bool, Float64, Int64

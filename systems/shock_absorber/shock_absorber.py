@@ -12,10 +12,10 @@ from pydrake.systems.framework import (
     ValueProducer,
 )
 
-from systems.shock_absorber.strut_law import (
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.shock_absorber.strut_parameters import (
     ShockAbsorberParameters,
     ShockAbsorberTunables,
-    StrutLaw,
 )
 from systems.tools.checks import require_index, require_some
 from systems.tools.template import default_instantiation, for_scalars

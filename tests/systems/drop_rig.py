@@ -17,7 +17,7 @@ from pydrake.systems.primitives import LogVectorOutput
 
 from systems.runway.runway import Runway
 from systems.shock_absorber.shock_absorber import ShockAbsorber
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.tire import Tire
 from systems.tire.tire_parameters import TireParameters
 

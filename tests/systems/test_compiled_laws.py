@@ -6,7 +6,8 @@ import pytest
 from systems.runway.runway import Runway
 from systems.shock_absorber.gas_spring import GasSpring, SecondChamber
 from systems.shock_absorber.shock_absorber import ShockAbsorber
-from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.slip import TabulatedSlip
 from systems.tire.tire_law import TireLaw
 from systems.tire.tire_parameters import TireParameters

@@ -26,7 +26,7 @@ from systems.gear.wheel_kinematics import WheelKinematics
 from systems.shock_absorber.gas_spring import GasSpring
 from systems.shock_absorber.shock_absorber import ShockAbsorber
 from systems.shock_absorber.side_load import SideLoad
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tire.tire import Tire
 from systems.tire.tire_parameters import TireParameters
 from tests.systems.small_gears import two_gears

@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from fem.cross_sections.library import DIMENSIONS, Section, section
+from fem.cross_sections.library import Section, section
+from fem.cross_sections.shapes import DIMENSIONS
 from fem.deck.text.fields import Fields
 from fem.deck.text.values import Malformed
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from drake_landing.campaign.basis import ScreeningBasis
 from drake_landing.campaign.screening import screen
-from drake_landing.parts.stress import StressPart
+from drake_landing.parts.stress_maps import StressPart
 from drake_landing.parts.stress_rows import StressRows
 
 _ELEMENTS = 40

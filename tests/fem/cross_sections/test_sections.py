@@ -9,7 +9,8 @@ from pyNastran.bdf.cards.properties.bars import PBARL
 
 from benchmarks.verification.runner import run
 from fem.cross_sections.analysis import analyse
-from fem.cross_sections.library import DIMENSIONS, _divide, analysed, section
+from fem.cross_sections.library import _divide, analysed, section
+from fem.cross_sections.shapes import DIMENSIONS
 from fem.cross_sections.shear_factors import ROUND, SOURCES, library_values
 
 EXAMPLES: dict[str, tuple[float, ...]] = {

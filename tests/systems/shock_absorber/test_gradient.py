@@ -9,7 +9,7 @@ from pydrake.systems.primitives import LinearSystem
 
 from systems.shock_absorber.gas_spring import GasSpring
 from systems.shock_absorber.shock_absorber import ShockAbsorber
-from systems.shock_absorber.strut_law import ShockAbsorberParameters
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 
 MASS, SINK_RATE, STEP = 20e3, 2.0, 2e-3
 PARAMETERS = ShockAbsorberParameters(

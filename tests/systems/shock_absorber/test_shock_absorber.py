@@ -12,10 +12,10 @@ from pydrake.autodiffutils import InitializeAutoDiff
 from systems.shock_absorber.friction import bearing_reactions
 from systems.shock_absorber.gas_spring import GasSpring, SecondChamber, series_split
 from systems.shock_absorber.shock_absorber import ShockAbsorber
-from systems.shock_absorber.strut_law import (
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.shock_absorber.strut_parameters import (
     ShockAbsorberParameters,
     ShockAbsorberTunables,
-    StrutLaw,
 )
 from systems.tools.table import Table
 

@@ -22,7 +22,8 @@ from systems.shock_absorber.gas_spring import (
 from systems.shock_absorber.orifice_damper import orifice_force, orifice_rate
 from systems.shock_absorber.orifice_network import OrificeNetwork
 from systems.shock_absorber.shock_absorber import ShockAbsorber
-from systems.shock_absorber.strut_law import ShockAbsorberParameters, StrutLaw
+from systems.shock_absorber.strut_law import StrutLaw
+from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
 from systems.tools.grid import Grid
 from systems.tools.table import Table
 from tests.systems.drop_rig import Rig, drop
