@@ -9,7 +9,7 @@ from benchmarks.verification.table import page
 # Seconds long; `make verify` runs them, and the slow tests.
 LONG = {
     *("straight_beam", "rectangular_plates", "plates", "plate_transients"),
-    *("quadratic_cantilevers", "thick_plate"),
+    *("quadratic_cantilevers", "thick_plate", "restrained_torsion"),
     "plate_reactions",
     "plates_that_buckle",
     *("curved_roof", "curved_hemisphere", "plates_of_any_thickness"),

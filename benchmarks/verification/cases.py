@@ -7,6 +7,7 @@ from pathlib import Path
 
 from benchmarks.verification import (
     beam_masses,
+    beam_warping,
     buckling,
     cantilevers,
     commercial,
@@ -88,6 +89,8 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         nafems_beams.deep_beam_transient,
         nafems_beams.euler_cantilever,
         beam_masses.masses_of_beams,
+        beam_warping.restrained_torsion,
+        beam_warping.warping_of_two_beams,
         sections.shear_factors,
         sections.round_cantilever_modes,
         small_systems.damped_oscillator,

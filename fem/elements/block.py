@@ -89,6 +89,7 @@ class ElementBlock(Protocol):
         card: Nastran's name, "CQUAD4".
         id: (e,) element ids, ascending.
         dof: (e, n) rows of the g-set; -1 marks a grounded freedom.
+        grid_dof: (e, m) those of the grids between which the element lies.
         frame: axes of the element matrices, see the module's text.
     """
 
@@ -98,6 +99,8 @@ class ElementBlock(Protocol):
     def id(self) -> Int64: ...
     @property
     def dof(self) -> Int64: ...
+    @property
+    def grid_dof(self) -> Int64: ...
     @property
     def frame(self) -> Literal["basic", "displacement"]: ...
 

@@ -12,7 +12,7 @@ def element_grids(points: Points, block: ElementBlock) -> Int64 | None:
 
     Freedoms come in triples of one grid: translations, or translations and rotations.
     """
-    dof = block.dof
+    dof = block.grid_dof
     if block.frame != "basic" or dof.shape[1] % 3 or np.any(dof < 0):
         return None
     grids = dof[:, ::3] // 6

@@ -25,6 +25,11 @@ class DenseBlock:
     dof: Int64
     frame: Literal["basic", "displacement"] = "basic"
 
+    @property
+    def grid_dof(self) -> Int64:
+        """(e, n) freedoms of the grids between which the element lies."""
+        return self.dof
+
     def stiffness(self) -> Float64 | None:
         """(e, n, n), None: this element type has no stiffness."""
         return None

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from fem.deck.records import CARDS
 from fem.elements.block import ElementBlock
 from fem.elements.connectors.reader import connector_notices
-from fem.elements.lines.beam import beam_notices
+from fem.elements.lines.beam_reader import beam_notices
 from fem.elements.nonstructural_mass import add_nonstructural_mass
 from fem.elements.scalars.gap import gap_notices
 from fem.elements.solids.notices import solid_notices

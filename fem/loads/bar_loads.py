@@ -22,7 +22,8 @@ import pandas as pd
 from fem.arrays import Float64, Int64
 from fem.deck.references import where
 from fem.elements.lines.bar import Bar, read_cbar
-from fem.elements.lines.beam import Beam, BeamSection, read_cbeam
+from fem.elements.lines.beam import Beam, BeamSection
+from fem.elements.lines.beam_reader import read_cbeam
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads
@@ -133,13 +134,13 @@ def _of_block(block: Bar | Beam, keep: Int64) -> _Lines:
         usable = plain & (stiff != 0.0)
         np.divide(bending, stiff, out=shear[:, plane], where=usable)
     return _Lines(
-        dof=block.dof[keep],
+        dof=block.grid_dof[keep],
         length=length[keep],
         axes=block.geometry.R_BE[keep],
         map=block.geometry.grid_to_end()[keep],
         shear=shear[keep],
-        stiffness=block.end_stiffness[keep],
-        released=block.released[keep],
+        stiffness=block.end_stiffness[keep, :12, :12],
+        released=block.released[keep, :12],
     )
 
 

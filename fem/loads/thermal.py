@@ -138,7 +138,7 @@ class _Temperatures:
 
     def of(self, block: "ElementBlock") -> Float64:
         """(e,) mean of the grids."""
-        return self.at[block.dof].mean(axis=1)
+        return self.at[block.grid_dof].mean(axis=1)
 
     def of_grids(self, block: "ElementBlock") -> Float64:
         """(e, n) of the grids."""
@@ -215,7 +215,7 @@ def _expanded(
 def _deformed(
     deck: "Deck", blocks: Sequence["ElementBlock"], sid: int, problems: list[str]
 ) -> list[tuple[int, Float64]]:
-    """Blocks and the motions (e, 12) of elements that DEFORM makes longer."""
+    """Blocks and the motions (e, n) of elements that DEFORM makes longer."""
     rows = _of(deck, "DEFORM", sid)
     if rows.empty:
         problems.append(f"{deck.path}: DEFORM = {sid}: no DEFORM of this set")
@@ -229,7 +229,9 @@ def _deformed(
             longer = np.zeros(len(block.id))
             at = np.searchsorted(block.id, own["eid"].to_numpy(np.int64))
             np.add.at(longer, at, own["d"].to_numpy(float))
-            found.append((k, stretched(block.axis, longer)))
+            motion = np.zeros(block.dof.shape)
+            motion[:, :12] = stretched(block.axis, longer)
+            found.append((k, motion))
     problems += [
         f"{where('DEFORM', row)}: element {row['eid']} is no rod, bar or beam"
         for _, row in rows.iterrows()

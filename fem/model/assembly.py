@@ -169,7 +169,8 @@ def _finite(block: ElementBlock, matrix: Float64 | None, what: str) -> Float64 |
 def to_displacement(points: Points, dof: Int64, matrix: Float64) -> Float64:
     """Matrices (e, n, n) of basic frame along the freedoms (e, n) of the g-set.
 
-    The freedoms come in triples of one grid, T1 T2 T3 or R1 R2 R3.
+    The freedoms come in triples of one grid, T1 T2 T3 or R1 R2 R3, or of a scalar point
+    and twice ground.
     """
     turn = triples_rotation(points, dof)
     if turn is None:
@@ -181,11 +182,13 @@ def to_displacement(points: Points, dof: Int64, matrix: Float64) -> Float64:
 def triples_rotation(points: Points, dof: Int64) -> Float64 | None:
     """(e, n/3, 3, 3) R_BD of each triple of freedoms, None if all are the identity."""
     grid = dof[:, ::3] // 6
+    grid = np.where(grid < len(points.grid_id), grid, -1)
     turned = np.any(points.rotation != np.eye(3), axis=(1, 2))
     if not np.any(turned[grid[grid >= 0]]):
         return None
-    # Row -1, ground, takes the last grid's axes: its entries are dropped anyway.
-    return points.rotation[grid]
+    turn = points.rotation[grid]
+    turn[grid < 0] = np.eye(3)  # ground, and scalar points
+    return turn
 
 
 def turn_columns(matrix: Float64, turn: Float64) -> Float64:

@@ -99,7 +99,7 @@ def _loads_on(points: Points, block: DenseBlock, loads: ElementLoads) -> Float64
     at = np.flatnonzero(np.isin(loads.id, block.id))
     row = np.searchsorted(block.id, loads.id[at])
     same = np.array(
-        [np.array_equal(block.dof[r], loads.dof[k]) for r, k in zip(row, at)], bool
+        [np.array_equal(block.grid_dof[r], loads.dof[k]) for r, k in zip(row, at)], bool
     )
     if not same.any():
         return None
@@ -110,7 +110,7 @@ def _loads_on(points: Points, block: DenseBlock, loads: ElementLoads) -> Float64
         triples = value.reshape(len(at), -1, 3)
         value = np.einsum("egij,egj->egi", turn, triples).reshape(value.shape)
     found = np.zeros(block.dof.shape)
-    np.add.at(found, row, value)
+    np.add.at(found[:, : value.shape[1]], row, value)
     return found
 
 

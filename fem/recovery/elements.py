@@ -279,7 +279,7 @@ def _of_loads(
     if matrix is None or not len(at):
         return None
     own = np.searchsorted(block.id, loads.id[at])
-    same = (block.dof[own] == loads.dof[at]).all(axis=1)
+    same = (block.grid_dof[own] == loads.dof[at]).all(axis=1)
     at, own = at[same], own[same]
     chosen, turn = matrix[own], triples_rotation(points, loads.dof[at])
     if turn is not None:

@@ -105,7 +105,7 @@ RECORDS = (
         more="g0:i>GRID?",
         ids="own",
         element=Element(
-            reader="lines.beam:read_cbeam",
+            reader="lines.beam_reader:read_cbeam",
             topology=_A_TO_B,
             op2=Op2(type=2, force="beam", stress="beam"),
             results=(

@@ -2,29 +2,22 @@
 
 The element x axis joins the shear centres. Section values vary linearly between the
 stations of PBEAM; the stiffness integrates the flexibility exactly along the taper
-(`beam_stiffness`), so that one element gives the answer of arbitrarily many. Warping
-(CW) and the shear relief of taper (S1, S2) are not modelled; `beam_notices` says so.
+(`beam_stiffness`), so that one element gives the answer of arbitrarily many. Restrained
+warping (CW with SA, SB) is in `beam_warping`; the shear relief of taper (S1, S2) is not
+modelled, `beam_notices` says so.
 """
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from fem.arrays import Float64
 from fem.deck.records.lines import BEAM_FORCE, BEAM_STRESS, at_ends, at_stations
-from fem.deck.references import refer, table, where
 from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.lines.bar import bar_forces
 from fem.elements.lines.beam_mass import LineMass, coupled_mass, lumped_mass
-from fem.elements.lines.beam_sections import (
-    BeamSection,
-    is_uniform,
-    read_sections,
-    read_stations,
-)
+from fem.elements.lines.beam_sections import BeamSection
 from fem.elements.lines.beam_stations import (
     TABLE,
     StationRecovery,
@@ -35,13 +28,7 @@ from fem.elements.lines.beam_stiffness import SectionCompliance, beam_stiffness
 from fem.elements.lines.line_block import LineBlock
 from fem.elements.lines.line_geometry import congruence
 from fem.elements.lines.line_preload import over, shear_ratio
-from fem.elements.lines.orientation import place_lines
-from fem.elements.lines.pins import pin_flags
-from fem.geometry.points import Points
-from fem.properties.materials import Isotropic, isotropic
-
-if TYPE_CHECKING:
-    from fem.deck.deck import Deck
+from fem.properties.materials import Isotropic
 
 # M1 M2 V1 V2 N T of both ends among the rows of `bar_forces`.
 _OF_ENDS = ([0, 1, 4, 5, 6, 7], [2, 3, 8, 9, 10, 11])
@@ -69,8 +56,8 @@ class Beam(LineBlock):
     def mass(self, *, coupled: bool) -> Float64:
         length = self.geometry.length
         form = coupled_mass if coupled else lumped_mass
-        at_ends = sum(
-            form(length, line) for line in line_masses(self.section, self.material)
+        at_ends = self._widened(
+            sum(form(length, line) for line in line_masses(self.section, self.material))
         )
         if coupled:
             at_ends = congruence(self._condensed[1], at_ends)
@@ -96,9 +83,14 @@ class Beam(LineBlock):
         return Recovery(
             table=self.card,
             columns=at_ends(BEAM_FORCE),
-            matrix=_printed(self._force_matrix),
+            matrix=_printed(self._force_matrix, self._warping_torque),
             id=self.id,
         )
+
+    @property
+    def _warping_torque(self) -> Float64:
+        """(e, 1, n) the part of the torque that restrained warping carries."""
+        return np.zeros_like(self._force_matrix[:, :1])
 
     def stresses(self) -> Recovery:
         return BeamStress(
@@ -122,8 +114,8 @@ class Beam(LineBlock):
         ends = np.stack([self._force_matrix[:, end] for end in _OF_ENDS], axis=1)
         if kind == "force":
             matrix = stations.forces(ends)
-            none = np.zeros_like(matrix[:, :, :1])  # no warping torque
-            matrix = np.concatenate([matrix, none], axis=2)
+            warping = np.repeat(self._warping_torque[:, None], matrix.shape[1], axis=1)
+            matrix = np.concatenate([matrix, warping], axis=2)
         else:
             matrix = stations.stresses(ends)
             if kind == "strain":
@@ -143,7 +135,7 @@ class Beam(LineBlock):
         """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
         forces = bar_forces(self.geometry.end_forces())
         if kind == "force":
-            return _printed(forces)
+            return _printed(forces, np.zeros_like(forces[:, :1]))
         stress = beam_stress_matrix(self.section) @ forces
         return stress if kind == "stress" else stress * self._per_modulus
 
@@ -229,60 +221,8 @@ def beam_stress_matrix(section: BeamSection) -> Float64:
     return matrix
 
 
-def _printed(forces: Float64) -> Float64:
-    """(e, 14, n) the columns of CBEAM from `bar_forces`; no warping torque."""
-    none = np.zeros_like(forces[:, :1])
+def _printed(forces: Float64, warping_torque: Float64) -> Float64:
+    """(e, 14, n) the columns of CBEAM from `bar_forces` and the warping torque."""
     return np.concatenate(
-        [x for end in _OF_ENDS for x in (forces[:, end], none)], axis=1
-    )
-
-
-def read_cbeam(deck: "Deck", points: Points) -> list[Beam]:
-    """The prismatic and the tapered CBEAM block of a deck.
-
-    Raises:
-        InputError: undefined properties, materials or grids, impossible geometry.
-    """
-    rows = table(deck, "CBEAM").sort_values("eid", ignore_index=True)
-    if rows.empty:
-        return []
-    pbeam = refer(rows, "CBEAM", "pid", table(deck, "PBEAM"), "PBEAM")
-    properties = table(deck, "PBEAM")
-    prismatic = [int(p["pid"]) for _, p in properties.iterrows() if is_uniform(p)]
-    uniform = rows["pid"].isin(prismatic).to_numpy()
-    return [
-        _block(deck, points, rows[part], pbeam[part])
-        for part in (uniform, ~uniform)
-        if part.any()
-    ]
-
-
-def beam_notices(deck: "Deck") -> list[str]:
-    """What PBEAM cards ask for and is not modelled."""
-    notices = []
-    for _, row in table(deck, "PBEAM").iterrows():
-        if np.nan_to_num(row["cwa"]) or np.nan_to_num(row["cwb"]):
-            notices.append(f"{where('PBEAM', row)}: warping (CW) is ignored")
-        if np.nan_to_num(row["s1"]) or np.nan_to_num(row["s2"]):
-            notices.append(f"{where('PBEAM', row)}: shear relief S1, S2 is ignored")
-    return notices
-
-
-def _block(
-    deck: "Deck", points: Points, rows: pd.DataFrame, pbeam: pd.DataFrame
-) -> Beam:
-    rows, pbeam = rows.reset_index(drop=True), pbeam.reset_index(drop=True)
-    ends = points.rows(rows[["ga", "gb"]].to_numpy(np.int64))
-    return Beam(
-        card="CBEAM",
-        id=rows["eid"].to_numpy(np.int64),
-        dof=(6 * ends[:, :, None] + np.arange(6)).reshape(-1, 12),
-        pid=rows["pid"].to_numpy(np.int64),
-        geometry=place_lines(rows, "CBEAM", points),
-        section=read_sections(pbeam),
-        stations=read_stations(pbeam),
-        material=isotropic(deck, pbeam, "PBEAM"),
-        released=np.hstack(
-            [pin_flags([str(p) for p in rows[c]]) for c in ("pa", "pb")]
-        ),
+        [x for end in _OF_ENDS for x in (forces[:, end], warping_torque)], axis=1
     )

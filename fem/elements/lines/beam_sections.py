@@ -27,7 +27,7 @@ class BeamSection:
     Attributes:
         x, weight: (e, q) integration points as fraction of the length, weights.
         values: a i1 i2 i12 j nsm, y z (neutral axis), my mz (non-structural mass), nsi
-            (its moment of inertia per length), each (e, q).
+            (its moment of inertia per length), cw (warping), each (e, q).
         ends: a i1 i2 i12 y z, each (e, 2).
         recovery: (e, 2, 4, 2) y and z of points C, D, E, F at both ends.
         k1, k2: (e,) shear factors, 0 for no shear flexibility.
@@ -46,7 +46,7 @@ def is_uniform(row: pd.Series) -> bool:
     sequences = [np.asarray(row[f"{name}s"], float) for name in _VARYING]
     offsets = [f"{p}{i}" for p in "mn" for i in (1, 2)]
     ends = [(row[f"{o}a"], row[f"{o}b"]) for o in offsets]
-    ends.append((row["nsia"], row["nsib"]))
+    ends += [(row["nsia"], row["nsib"]), (row["cwa"], row["cwb"])]
     return all(np.all(s == s[0]) for s in sequences) and all(
         np.nan_to_num(a) == np.nan_to_num(b) for a, b in ends
     )
@@ -102,7 +102,7 @@ def _values_at(row: pd.Series, x: Float64) -> dict[str, Float64]:
         return np.interp(x, [0.0, 1.0], np.nan_to_num([a, b]))
 
     values = {name: between_stations(row[f"{name}s"]) for name in _VARYING}
-    pairs = {"y": "n1", "z": "n2", "my": "m1", "mz": "m2", "nsi": "nsi"}
+    pairs = {"y": "n1", "z": "n2", "my": "m1", "mz": "m2", "nsi": "nsi", "cw": "cw"}
     for name, field in pairs.items():
         values[name] = between_ends(row[f"{field}a"], row[f"{field}b"])
     return values

@@ -106,6 +106,10 @@ class LineBlock(DenseBlock, ABC):
     def _condensed(self) -> tuple[Float64, Float64]:
         return condense(self.end_stiffness, self.released)
 
+    def _widened(self, matrix: Float64) -> Float64:
+        """A matrix (e, 12, 12) at the ends for all freedoms that the ends have."""
+        return matrix
+
     @property
     def _at_ends(self) -> Float64:
         return self._condensed[0]
@@ -118,11 +122,11 @@ class LineBlock(DenseBlock, ABC):
     ) -> Float64:
         """(e, 12, 12) of the section forces, and of the arms that offsets are."""
         geometry = self.geometry
-        force = np.einsum("eij,ej->ei", self._at_ends @ self._map, motion)
+        force = np.einsum("eij,ej->ei", self._at_ends @ self._map, motion)[:, :12]
         if load is not None:
-            force -= np.einsum("eij,ej->ei", geometry.end_forces(), load)
+            force -= np.einsum("eij,ej->ei", geometry.end_forces(), load[:, :12])
         ratio, polar = self.preload_section()
-        at_ends = line_differential(geometry.length, force, ratio, polar)
+        at_ends = self._widened(line_differential(geometry.length, force, ratio, polar))
         matrix = congruence(self._condensed[1] @ self._map, at_ends)
         for k, arm in ((0, geometry.offset_a), (6, geometry.offset_b)):
             tip = np.einsum("eij,ej->ei", geometry.R_BE, force[:, k : k + 3])
