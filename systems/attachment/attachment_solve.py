@@ -139,7 +139,8 @@ def _factorise(A: Float64, start: int, end: int) -> None:
         total = A[j, j]
         for f in range(start, j):
             total -= A[j, f] * A[j, f]
-        pivot = math.sqrt(total)
+        # NaN where there is no root, compiled and in plain Python alike.
+        pivot = math.sqrt(total) if total > 0.0 else math.nan
         A[j, j] = pivot
         for i in range(j + 1, end):
             total = A[i, j]

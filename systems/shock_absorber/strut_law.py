@@ -39,6 +39,7 @@ from systems.shock_absorber.strut_forces import (
     strut_forces_of_floats,
 )
 from systems.shock_absorber.strut_parameters import ShockAbsorberParameters
+from systems.tools.compiled import COMPILES
 from systems.tools.scalar import Scalar
 from systems.tools.stops import contact_energy
 
@@ -164,6 +165,9 @@ class StrutLaw:
     ) -> "StrutResponse":
         """The same of arrays, compiled; (2) stroke and rate."""
         s, rate = motion.tolist()
+        if not COMPILES:
+            at = None if state is None else state.tolist()
+            return self.response(s, rate, load.tolist(), tunables.tolist(), at)
         limit = float(self._limit(tunables[1]))
         found = strut_forces_of_floats(
             s, rate, load, tunables, *self._split(state), limit, *self._arrays

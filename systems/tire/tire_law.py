@@ -38,6 +38,7 @@ from systems.tire.contact import (
 from systems.tire.curve_law import CurveLaw
 from systems.tire.slip_law import SlipLaw
 from systems.tire.tire_parameters import TireParameters
+from systems.tools.compiled import COMPILES
 from systems.tools.scalar import Scalar
 from systems.tools.stops import contact_energy
 from systems.tools.table import Table
@@ -121,7 +122,7 @@ class TireLaw:
             lag_across=across,
         )
         self._rows = [table and table.rows for table in self._tables]
-        self._compiled_slip_law = self._slip_law.compiled_form
+        self._compiled_slip_law = self._slip_law.compiled_form if COMPILES else None
 
     @property
     def parameters(self) -> TireParameters:

@@ -2,7 +2,9 @@
 
 For functions of a few microseconds that a simulation calls ten thousand times: scalar
 arithmetic and short loops, where numpy spends most of its time on the call itself.
-Plain Python remains the language; `function.py_func` is the function uncompiled.
+Plain Python remains the language; `function.py_func` is the function uncompiled, and
+with NUMBA_DISABLE_JIT=1 in the environment nothing is compiled: a debugger steps into
+the laws (`COMPILES`; a landing is then some tens of times slower).
 
 The machine code is kept in the user's cache folder (Linux: ~/.cache/drake-landing/
 compiled), or below the folder that the environment's NUMBA_CACHE_DIR names, under a
@@ -32,6 +34,9 @@ from numba.extending import register_jitable
 # Numba takes settings from the working directory, which may be somebody else's.
 config._config_fname = ""
 config.reload_config()
+
+COMPILES = not config.DISABLE_JIT
+"""Whether laws run as machine code, which takes arrays where they take objects."""
 
 P = ParamSpec("P")
 R = TypeVar("R")

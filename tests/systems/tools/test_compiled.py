@@ -23,7 +23,10 @@ assert double(1.5) == {factor} * 1.5
 print(compiled_before(__file__))
 """
 
+compiling = pytest.mark.skipif(not module.COMPILES, reason="NUMBA_DISABLE_JIT is set")
 
+
+@compiling
 def test_function_is_compiled_and_kept_in_plain_python():
     @module.compiled
     def double(x: float) -> float:
@@ -62,6 +65,7 @@ def test_machine_code_depends_on_module_and_vocabulary(file, monkeypatch, tmp_pa
     assert after.name != before.name
 
 
+@compiling
 def test_what_is_compiled_is_known_by_its_text(tmp_path):
     """Nothing is left beside the module; a changed text is not taken for compiled."""
     script = tmp_path / "place" / "script.py"
