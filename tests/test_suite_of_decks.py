@@ -12,6 +12,7 @@ from benchmarks.suite import grid_forces
 from benchmarks.suite.__main__ import summary
 from benchmarks.suite.compare import differences
 from benchmarks.suite.decks import decks, judge
+from benchmarks.suite.mystran_listing import read_mystran
 from benchmarks.suite.tables import listed, read_f06, read_op2
 from fem.files.op2 import write_op2
 from fem.model.structure import Structure
@@ -83,6 +84,31 @@ def test_frequencies_of_a_listing_are_read(folder):
     (found,) = differences(read_op2(folder / "a_same.op2"), theirs)
     assert found.name == "frequency"
     assert found.value < 1e-6
+
+
+def test_listings_of_mystran_are_read(folder):
+    frequency = read_op2(folder / "a_same.op2")["frequency", 1].values.ravel()
+    roots = "\n".join(
+        f"{k:9d}{k:9d}{0.0:16.6E}{0.0:16.6E}{hertz:16.6E}{1.0:16.6E}{1.0:16.6E}"
+        for k, hertz in enumerate(frequency, start=1)
+    )
+    (folder / "a_same.f06").write_text(
+        " OUTPUT FOR SUBCASE        3\n             D I S P L A C E M E N T S\n"
+        "    GRID     COORD      T1            T2\n"
+        "       7        0  1.500000E-05  0.0   0.0  -2.0E-06  0.0  0.0\n"
+        "                  ------------- -------------\n"
+        " MAX (for output set):   1.5E-05  0.0  0.0  0.0  0.0  0.0\n"
+        f"               R E A L   E I G E N V A L U E S\n\n{roots}\n"
+        " OUTPUT FOR EIGENVECTOR        1\n             S P C   F O R C E S\n"
+        "       7        0  1.0  0.0  0.0  0.0  0.0  0.0\n"
+    )
+    found = read_mystran(folder / "a_same.f06")
+    assert set(found) == {("displacement", 3), ("frequency", 1)}
+    assert found["displacement", 3].owner == [(7, 1)]
+    assert found["displacement", 3].values[0, 0].tolist() == [1.5e-5, 0, 0, -2e-6, 0, 0]
+    np.testing.assert_allclose(
+        found["frequency", 1].values.ravel(), frequency, rtol=1e-6
+    )
 
 
 HARMONIC = (

@@ -14,6 +14,7 @@ import numpy as np
 
 from benchmarks.suite.compare import differences
 from benchmarks.suite.hdf5_tables import read_nastran_hdf5
+from benchmarks.suite.mystran_listing import read_mystran
 from benchmarks.suite.tables import Name, Table, read_f06, read_op2
 from fem.deck.reader import read_deck
 from fem.deck.text.source import include_reach
@@ -153,7 +154,7 @@ def _read(path: Path, *, buckling: bool) -> dict[Name, Table]:
         return read_op2(path)
     if path.suffix.lower() == ".h5":
         return read_nastran_hdf5(path)
-    return read_f06(path, buckling=buckling)
+    return read_f06(path, buckling=buckling) or read_mystran(path, buckling=buckling)
 
 
 def _ours(deck: Path) -> tuple[dict[Name, Table], float]:

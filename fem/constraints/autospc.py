@@ -18,6 +18,8 @@ from fem.constraints.elimination import Elimination
 from fem.geometry.points import Points
 
 EPZERO = 1e-8
+# Arm, as share of the coordinates, that only their rounding gives a force.
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -86,6 +88,7 @@ def find_singularities(
     f = elimination.f
     grids = 6 * len(points.grid_id)
     blocks, present = _diagonal_blocks(reduced.tocoo(), f, grids)
+    _clear_rounding(blocks, np.abs(points.xyz).max(initial=0.0))
     dof, ratio = _weak_components(blocks, present, epzero)
     scalar = f >= grids
     diagonal = reduced.diagonal()
@@ -109,6 +112,18 @@ def _diagonal_blocks(
     present = np.zeros((grids // 3, 3), bool)
     present.reshape(-1)[f[f < grids]] = True
     return blocks, present
+
+
+def _clear_rounding(blocks: npt.NDArray[np.float64], extent: float) -> None:
+    """No stiffness of rotations (b, 3, 3) that is only rounding.
+
+    A force along a line through a grid has an arm of rounding about it, whose square
+    times the stiffness of the force would count as stiffness of the rotation.
+    """
+    forces, moments = blocks[0::2], blocks[1::2]
+    stiffest = np.abs(forces).max(initial=0.0)
+    largest = np.abs(moments).max(axis=(1, 2), initial=0.0)
+    moments[largest <= stiffest * (_ROUNDING * extent) ** 2] = 0.0
 
 
 def _weak_components(

@@ -8,7 +8,7 @@ import pandas as pd
 
 from fem.deck.records import CARDS, TABLES, Card, table_of
 from fem.deck.records.fixed_fields import read_regular
-from fem.deck.text.fields import Fields, IdRange
+from fem.deck.text.fields import Fields
 from fem.deck.text.lexer import RawCard
 from fem.deck.text.values import Malformed
 
@@ -122,11 +122,12 @@ def _frame(record: Card, pieces: list[dict[str, list]]) -> pd.DataFrame:
             columns[name] = np.empty(len(values), dtype=object)
             columns[name][:] = values
     if any("thru" in piece for piece in pieces):
-        columns["thru"] = np.array(
-            [part for piece in pieces for part in _thru(piece)], dtype=object
-        )
+        ranges = [part for piece in pieces for part in _thru(piece)]
+        columns["thru"] = np.empty(len(ranges), dtype=object)
+        columns["thru"][:] = ranges
     return pd.DataFrame(columns)
 
 
-def _thru(piece: dict[str, list]) -> list[IdRange | None]:
+def _thru(piece: dict[str, list]) -> list:
+    """Ranges of each row: an `IdRange`, a tuple of them (lists of elements), None."""
     return piece.get("thru") or [None] * len(piece["line"])

@@ -32,6 +32,8 @@ def clean(tables: Tables, ignored: Sequence[RawCard], notices: list[str]) -> Non
     _add_scalar_points(tables, notices)
     for name in ("SPC", "ASET", "CSET", "QSET", "OMIT"):
         _unroll(tables, name, "g" if name == "SPC" else "id", notices)
+    for name, column, targets in _loaded_elements():
+        _unroll_elements(tables, name, column, targets, notices)
     both = [t for t in (tables["ASET"], tables["CSET"]) if len(t)]
     if both:
         tables["ASET"] = pd.concat(both, ignore_index=True)
@@ -123,6 +125,32 @@ def _unroll(tables: Tables, name: str, column: str, notices: list[str]) -> None:
     unrolled = table.iloc[order[sort]].drop(columns="thru").reset_index(drop=True)
     unrolled[column] = np.concatenate(points)[sort]
     tables[name] = unrolled
+
+
+def _unroll_elements(
+    tables: Tables, name: str, column: str, targets: list[str], notices: list[str]
+) -> None:
+    """Ranges of loads to the elements that exist, or to their ends where none does."""
+    table = tables[name]
+    if "thru" not in table:
+        return
+    known = np.unique(ids(tables, targets, "eid"))
+    loaded, gaps = [], 0
+    for single, ranges in zip(table[column], table["thru"]):
+        parts = [single]
+        for part in ranges:
+            inside = part.among(known)
+            gaps += len(inside) and part.last - part.first + 1 - len(inside)
+            parts.append(inside if len(inside) else np.unique([part.first, part.last]))
+        loaded.append(np.unique(np.concatenate(parts)).astype(np.int64))
+    if gaps:
+        notices.append(
+            f"{name}: {gaps} of the ids between THRU are no elements that it loads; "
+            "passed over"
+        )
+    kept = table.drop(columns="thru")
+    kept[column] = pd.Series(loaded, index=kept.index, dtype=object)
+    tables[name] = kept
 
 
 def _element_ids(cards: Sequence[RawCard]) -> npt.NDArray[np.int64]:

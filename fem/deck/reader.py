@@ -168,6 +168,7 @@ def read_deck(
         notices += found.notices
     if problems:
         raise InputError(problems)
+    deck = _known_reference(deck, notices)
     if sections.has_control and not bulk.has_enddata and not sections.in_parts:
         notices.append(f"{path}: no ENDDATA; the deck may be cut off")
     return Deck(
@@ -184,6 +185,18 @@ def read_deck(
         external=deck.external,
         increments=increments,
     )
+
+
+def _known_reference(deck: Deck, notices: list[str]) -> Deck:
+    """PARAM GRDPNT that names no grid is the origin, as Nastran takes it."""
+    grid = deck.params.get("GRDPNT", 0)
+    if grid <= 0 or (deck.cards["GRID"]["id"] == grid).any():
+        return deck
+    notices.append(
+        f"PARAM GRDPNT {grid}: there is no such grid; the weight table and resultants "
+        "are about the origin of the basic frame"
+    )
+    return replace(deck, params={**deck.params, "GRDPNT": 0})
 
 
 def _possible_ids(bulk: Bulk) -> Int64:

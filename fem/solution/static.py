@@ -271,7 +271,10 @@ def _without_mechanisms(model: Structure, p_f: Float64, options: Options) -> Flo
         motions = np.concatenate(
             [m.motions for m in found] or [np.zeros((len(p_f), 0))], axis=1
         )
-        work, size = np.abs(motions.T @ p_f), np.abs(motions).T @ np.abs(p_f)
+        shares = np.abs(motions)
+        rounding = shares < _ROUNDING * shares.max(axis=0, initial=0.0)
+        moved = np.where(rounding, 0.0, motions)
+        work, size = np.abs(moved.T @ p_f), np.abs(moved).T @ np.abs(p_f)
         if not found or (work > _UNLOADED * size).any():
             raise
     held = np.asarray(qr(motions.T, mode="r", pivoting=True)[-1])[: motions.shape[1]]
@@ -288,6 +291,8 @@ def _without_mechanisms(model: Structure, p_f: Float64, options: Options) -> Flo
 
 # Work of loads along a motion, relative to that of their sizes, that is rounding.
 _UNLOADED = 1e-8
+# Share of a motion's largest freedom that is none of the motion.
+_ROUNDING = 1e-10
 
 
 def _inertia_forces(model: Structure, acceleration_f: Float64) -> Float64:

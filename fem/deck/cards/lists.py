@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fem.deck.text.fields import Fields
+from fem.deck.text.fields import Fields, IdRange
 from fem.deck.text.values import Malformed
 
 Row = dict[str, Any]
@@ -160,26 +160,27 @@ def mpc(f: Fields) -> Rows:
 
 
 def pload2(f: Fields) -> Rows:
-    written, between = f.ids(3, "EID1")
-    eids = np.array(sorted({*written, *between}), dtype=np.int64)
-    return [{"sid": f.integer(1, "SID"), "p": f.real(2, "P"), "eids": eids}]
+    written, ranges = f.ranges(3, "EID1")
+    row: Row = {"sid": f.integer(1, "SID"), "p": f.real(2, "P")}
+    return [{**row, "eids": np.array(written, np.int64), "thru": tuple(ranges)}]
 
 
 def pload4(f: Fields) -> Rows:
     p1 = f.real(3, "P1", 0.0)
     row: Row = {"sid": f.integer(1, "SID"), "p1": p1, "g1": 0, "g34": 0}
     row.update({f"p{k}": f.real(2 + k, f"P{k}", p1) for k in (2, 3, 4)})
-    eids = [f.integer(2, "EID")]
+    eids, ranges = [f.integer(2, "EID")], ()
     if f.text(7) == "THRU":
-        eids = list(range(eids[0], f.integer(8, "EID2") + 1))
-        if not eids:
+        last = f.integer(8, "EID2")
+        if last < eids[0]:
             raise Malformed("field EID2: expected an ascending range")
+        eids, ranges = [], (IdRange(eids[0], last),)
     else:
         row["g1"], row["g34"] = f.integer(7, "G1", 0), f.integer(8, "G34", 0)
     row["cid"] = f.integer(9, "CID", 0)
     row.update({f"n{k}": f.real(9 + k, f"N{k}", 0.0) for k in (1, 2, 3)})
     row["sorl"], row["ldir"] = f.word(13, "SORL", "SURF"), f.word(14, "LDIR", "NORM")
-    return [{**row, "eids": np.array(eids, dtype=np.int64)}]
+    return [{**row, "eids": np.array(eids, dtype=np.int64), "thru": ranges}]
 
 
 def accel1(f: Fields) -> Rows:

@@ -35,6 +35,12 @@ RECORDS = (
         convert=conversions.grid,
     ),
     Card(name="SPOINT", group=_GROUP, read=lists.spoint, more="id:i", ids="point"),
+    # Normal of the shells at a grid, where PARAM SNORM is above 0.
+    Card(
+        name="SNORM",
+        group=_GROUP,
+        fields="g:i>GRID cid:i=0>CORD n1:f=0.[1] n2:f=0.[1] n3:f=1.[1]",
+    ),
     # Type R, C or S; form 1 by grids g1 g2 g3, form 2 by points a b c in frame rid.
     Card(
         name="CORD",

@@ -114,11 +114,11 @@ class _Reader:
             if not text or text.isspace():
                 continue
             if self.bulk.has_enddata:
-                after_end += 1
+                after_end += bool(text.strip(" *+"))
                 continue
             self.take(line, text.upper())
         if after_end:
-            self.bulk.notices.append(f"{after_end} lines after ENDDATA are not read")
+            self.bulk.notices.append(f"lines after ENDDATA are not read: {after_end}")
         self.tell_unread()
         return self.bulk
 
@@ -151,7 +151,7 @@ class _Reader:
         width *= max(1, -(-len(data) // width))
         if not head or head[0] in "+*":
             self.continuation(line, text, head, data, marker, width)
-        elif head == "ENDDATA":
+        elif head.rstrip("*") == "ENDDATA":
             self.bulk.has_enddata = True
         elif head[0] == "=":
             self.replication(line, text, head, data)

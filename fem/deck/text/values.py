@@ -4,7 +4,10 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-_EXPONENT = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[ED]?([+-]\d+)|[ED](\d+))$")
+_EXPONENT = re.compile(
+    r"([+-]?(?:\d+\.?\d*|\.\d+))(?:(?: *[ED] *)?([+-]\d+)| *[ED] *(\d+))$"
+)
+_APART = re.compile(r"(?<=\d) (?=\d)")
 _LARGEST_ID = 10**12
 
 
@@ -26,8 +29,10 @@ def integer(text: str) -> int:
 def real(text: str) -> float:
     """A real number: 1.5, -.5, 2.9+7, 1.E-3, 1.D3; an integer will do as well.
 
-    >>> real("2.9+7"), real("1.D3"), real("-.5")
-    (29000000.0, 1000.0, -0.5)
+    Blanks around the letter of the exponent are those of Fortran's formats.
+
+    >>> real("2.9+7"), real("1.D3"), real("-.5"), real("2.0  E+7")
+    (29000000.0, 1000.0, -0.5, 20000000.0)
     """
     try:
         value = float(text)
@@ -46,9 +51,12 @@ def real(text: str) -> float:
 def components(text: str) -> str:
     """Digits 1 to 6 in ascending order without repetition, or '0'.
 
-    >>> components("6213")
-    '1236'
+    Single blanks between digits keep translations and rotations apart for the eye.
+
+    >>> components("6213"), components("12 456")
+    ('1236', '12456')
     """
+    text = _APART.sub("", text)
     if not text.isascii() or not text.isdigit() or set(text) - set("0123456"):
         raise Malformed("component digits 1 to 6")
     digits = "".join(sorted(set(text) - {"0"}))

@@ -1,0 +1,117 @@
+"""Ways of writing that other programs' users have, and that Nastran takes."""
+
+import numpy as np
+import pytest
+
+from fem.cli import _status
+from fem.deck.text.values import Malformed, components, real
+from fem.elements.shells.shell_normals import deck_normals
+from fem.errors import InputError
+from fem.model.points import read_points
+from fem.model.structure import Structure
+
+PLATES = (
+    "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\nGRID,4,,,1.\nGRID,5,,2.\nGRID,6,,2.,1.\n"
+    "CQUAD4,1,1,1,2,3,4\nCQUAD4,5,1,2,5,6,3\nPSHELL,1,1,.01,1,,1\nMAT1,1,7.+10,,.3\n"
+    "CROD,3,2,1,2\nPROD,2,1,1.-4\n"
+)
+
+
+def test_end_of_the_deck_in_large_fields(read):
+    end = (
+        "ENDDATA*                                                                *\n*\n"
+    )
+    deck = read(f"SOL 101\nCEND\nBEGIN BULK\n{PLATES}{end}", alone=True)
+    assert not deck.notices
+
+
+@pytest.mark.parametrize("text", ["2.0  E+7", "2.0E 7", "2.0 D07", "2.+7"])
+def test_exponents_of_fortran_formats(text):
+    assert real(text) == 2.0e7
+
+
+@pytest.mark.parametrize("text", ["2.0  7", "2. 0", "2.0 +7", "E7"])
+def test_numbers_that_fall_apart_are_no_numbers(text):
+    with pytest.raises(Malformed):
+        real(text)
+
+
+def test_components_may_stand_in_groups(read):
+    deck = read("SPC1    7       12 456  3\n")
+    assert deck.cards["SPC"]["c"].tolist()[-1] == "12456"
+    for text in ("1  2", "12 7", "1 -2"):
+        with pytest.raises(Malformed):
+            components(text)
+
+
+def test_reference_point_that_is_no_grid_is_the_origin(read):
+    deck = read("PARAM,GRDPNT,77\n")
+    assert "PARAM GRDPNT 77: there is no such grid" in "".join(deck.notices)
+    np.testing.assert_allclose(Structure.from_deck(deck).weight.cg[1, 0], 1.0)
+
+
+@pytest.mark.parametrize("load", ["PLOAD2,1,3.,1,THRU,9", "PLOAD4,1,1,3.,,,,THRU,9"])
+def test_ranges_of_loaded_elements_may_have_gaps(read, load):
+    deck = read(PLATES + load, alone=True)
+    assert deck.cards[load[:6]]["eids"][0].tolist() == [1, 5]
+    assert "7 of the ids between THRU" in "".join(deck.notices)
+
+
+@pytest.mark.parametrize("load", ["PLOAD2,1,3.,7,THRU,9", "PLOAD4,1,7,3.,,,,THRU,9"])
+def test_ranges_without_any_element_are_refused(read, load):
+    with pytest.raises(InputError, match="7 is not defined"):
+        read(PLATES + load, alone=True)
+
+
+def test_lines_of_action_through_grids_do_not_stiffen_rotations(read):
+    """Springs along a diagonal: rounding of their arms counts as no stiffness."""
+    turned = "CORD2R,1,0,0.,0.,0.,-.70710678119,0.,.70710678119\n,.70710678119,0.,.7\n"
+    deck = read(
+        "GRID,7,,-.10606601718,9.1845476537-18,.10606601718\n"
+        "GRID,8,,-.31819805153,2.7553642961-17,.31819805153,1\n"
+        f"{turned}CBUSH,1,2,7,8,0.,1.,0.\nPBUSH,2,K,4.3\nSPC1,1,123,7\nSPC1,1,12,8\n",
+        alone=True,
+        case="SPC = 1",
+    )
+    structure = Structure.from_deck(deck)
+    held = set(structure.autospc.dof.tolist())
+    assert held >= {3, 4, 5, 9, 10, 11}
+    assert structure.stiffness.shape == (1, 1)
+
+
+def test_bailout_sees_no_load_in_the_rounding_of_a_motion(tmp_path, capsys):
+    """A ring under pressure in its plane that nothing holds across it."""
+    grids, quads, loads = [], [], []
+    angles = np.radians(np.linspace(0.0, 90.0, 5))
+    for k, angle in enumerate(angles, start=1):
+        for row, radius in ((0, 0.5), (10, 1.0)):
+            x, y = radius * np.cos(angle), radius * np.sin(angle)
+            grids.append(f"GRID,{k + row},,{x:.9f},{y:.9f}\n")
+        share = 0.5 if k in (1, len(angles)) else 1.0
+        x, y = -share * np.cos(angle), -share * np.sin(angle)
+        loads.append(f"FORCE,1,{k + 10},,100.,{x:.9f},{y:.9f}\n")
+        if k > 1:
+            quads.append(f"CQUAD4,{k},1,{k - 1},{k},{k + 10},{k + 9}\n")
+    ends = "SPC1,1,24,1,11\nSPC1,1,15,5,15\nPSHELL,1,1,.1,1,,1\nMAT1,1,2.+11,,.3\n"
+    bulk = "".join([*grids, *quads, *loads, ends, "PARAM,BAILOUT,-1\n"])
+    deck = tmp_path / "ring.bdf"
+    deck.write_text(f"SOL 101\nCEND\nSPC=1\nLOAD=1\nBEGIN BULK\n{bulk}ENDDATA\n")
+    assert _status([str(deck), "--out", str(tmp_path)]) == 0
+    assert "no load acts along it" in "".join(capsys.readouterr())
+
+
+def test_normals_of_shells_may_be_given(read):
+    fold = PLATES.replace("GRID,5,,2.", "GRID,5,,1.,,1.").replace(
+        "GRID,6,,2.,1.", "GRID,6,,1.,1.,1."
+    )
+    frame = "CORD2R,4,,0.,0.,0.,1.,0.,0.\n,0.,1.,0.\n"
+    deck = read(fold + frame + "SNORM,2,4,0.,3.,4.\nSNORM,3,,0.,0.,-2.\n", alone=True)
+    normals = deck_normals(deck, read_points(deck))
+    np.testing.assert_allclose(normals[1], [0.8, 0.0, 0.6], atol=1e-12)
+    np.testing.assert_allclose(normals[2], [0.0, 0.0, -1.0], atol=1e-12)
+    np.testing.assert_allclose(normals[0], [0.0, 0.0, 1.0], atol=1e-12)
+    without = read(fold, alone=True)
+    assert not deck_normals(without, read_points(without))[1:3].any()
+    faulty = read(fold + "SNORM,2,0,0.,0.,0.\n", alone=True)
+    with pytest.raises(InputError, match="the normal has no length"):
+        deck_normals(faulty, read_points(faulty))
