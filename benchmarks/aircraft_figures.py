@@ -88,17 +88,17 @@ def _beside(ours: float, other: float | None, form: str) -> tuple[str, str]:
 
 
 def mass(found: Aircraft) -> pd.DataFrame:
-    """Airframe and gears: mass, centre, inertia about it, beside the facts."""
-    total, centre, inertia = whole(found)
+    """Airframe and gears: mass, center, inertia about it, beside the facts."""
+    total, center, inertia = whole(found)
     target = facts("overall")
     wanted = [target["inertia"][name] for name in ("roll", "pitch", "yaw")]
     rows = [
         ("mass, kg", f"{total:,.1f}", *_beside(total, 72500.0, "{:,.0f}")),
         (
-            "x of the centre, m",
-            f"{centre[0]:.4f}",
+            "x of the center, m",
+            f"{center[0]:.4f}",
             f"{target['mass']['x_cg']:.3f}",
-            f"{1e3 * (centre[0] - target['mass']['x_cg']):+.2f} mm",
+            f"{1e3 * (center[0] - target['mass']['x_cg']):+.2f} mm",
         ),
     ]
     for axis, own, other in zip("xyz", np.diag(inertia), wanted):
@@ -110,17 +110,17 @@ def mass(found: Aircraft) -> pd.DataFrame:
 
 
 def whole(found: Aircraft) -> tuple[float, Float64, Float64]:
-    """Mass, centre (3,) and inertia about it (3, 3) of deck and extended gears."""
+    """Mass, center (3,) and inertia about it (3, 3) of deck and extended gears."""
     weight = found.structure.weight
     bodies = [(float(weight.mass[0]), weight.center, weight.inertia)]
     bodies += [(*gear_mass_center(g), np.zeros((3, 3))) for g in found.model.gears]
     total = sum(m for m, _, _ in bodies)
-    centre = np.sum([m * c for m, c, _ in bodies], axis=0) / total
+    center = np.sum([m * c for m, c, _ in bodies], axis=0) / total
     inertia = np.zeros((3, 3))
     for m, c, own in bodies:
-        arm = c - centre
+        arm = c - center
         inertia += own + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-    return total, centre, inertia
+    return total, center, inertia
 
 
 def quality(found: Aircraft) -> pd.DataFrame:

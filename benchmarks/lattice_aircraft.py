@@ -185,8 +185,8 @@ class Reduced:
         frequency: (n,) of the elastic modes, Hz.
         interface: (3, 6, n) [translation; rotation] of the faces' middles, mass-normal.
         shape: (3 k, n) of all nodes.
-        rigid: (3 k, 6) unit rigid motions about the centre of gravity.
-        p_G: (3,) centre of gravity, m.
+        rigid: (3 k, 6) unit rigid motions about the center of gravity.
+        p_G: (3,) center of gravity, m.
         inertia: (3, 3) about it.
     """
 

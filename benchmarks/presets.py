@@ -94,7 +94,7 @@ def run_preset(
 def at_rest(
     body: ModalBody, gears: Sequence[LandingGear]
 ) -> tuple[dict[str, float], float]:
-    """Vertical load of each gear at rest, N; height of the centre of gravity, m."""
+    """Vertical load of each gear at rest, N; height of the center of gravity, m."""
     scenario = Scenario.model_validate({"preset": "taxi_bump"})
     landing = make_scenario_diagram(body, gears, scenario)
     context = landing.diagram.CreateDefaultContext()
@@ -208,12 +208,12 @@ def rigid_models(body: ModalBody, gears: Sequence[LandingGear]) -> Iterator[str]
 
 def braked_nose_load(body: ModalBody, gears: Sequence[LandingGear]) -> float:
     """25.493(e): V_N = W/(A + B) [B + f μ A E/(A + B + μ E)], μ 0.8, f 2, in N."""
-    mass, centre = aircraft_mass_center(body, gears)
+    mass, center = aircraft_mass_center(body, gears)
     _, height = at_rest(body, gears)
     nose = next(gear for gear in gears if gear.name == "nose")
     main = next(gear for gear in gears if gear.name == "main_left")
-    A, B = centre[0] - nose.axles[0][0], main.axles[0][0] - centre[0]
-    E = height + centre[2] - body.p_BG[2]
+    A, B = center[0] - nose.axles[0][0], main.axles[0][0] - center[0]
+    E = height + center[2] - body.p_BG[2]
     friction, factor = 0.8, 2.0
     dynamic = factor * friction * A * E / (A + B + friction * E)
     return mass * STANDARD_GRAVITY / (A + B) * (B + dynamic)

@@ -47,7 +47,7 @@ class Beam:
             piece.
         boxes: ranges of x, y, z, B; grids in any of them belong to the beam.
         line: (k, 3) points of a line, B, that moments refer to; None: the EA-weighted
-            centre of the elements that cross.
+            center of the elements that cross.
         R_AB: (3, 3) axes A in B.
     """
 

@@ -1,8 +1,8 @@
 """Masses of CBAR and CBEAM against commercial Nastran, frequency by frequency.
 
-A cantilever of 1 m, turned by 30 degrees about its axis, in 30 elements: shear centres
+A cantilever of 1 m, turned by 30 degrees about its axis, in 30 elements: shear centers
 off the grids by WA and WB, the section tapered to half its size, the neutral axis and
-non-structural mass off the shear centre. BARMASS gives CBAR torsional inertia.
+non-structural mass off the shear center. BARMASS gives CBAR torsional inertia.
 """
 
 from benchmarks.verification.mesh import Bulk

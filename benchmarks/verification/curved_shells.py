@@ -178,7 +178,7 @@ def plates_of_any_thickness() -> list[Row]:
             return float(1e3 * t**3 * statics(supported_quarter(mesh, t))[0, 2])
 
         case = f"supported plate, thickness/side {thickness / 2:g},"
-        quantity, source = "1e3 t^3 w of the centre", "Navier, Mindlin"
+        quantity, source = "1e3 t^3 w of the center", "Navier, Mindlin"
         rows += _converge(case, quantity, theirs, source, (2, 4, 8), solve, 0.002)
     return rows
 
@@ -188,7 +188,7 @@ def shear_forces() -> list[Row]:
     rows = []
     for thickness in (0.2, 2e-4):
         case = f"supported plate, thickness/side {thickness / 2:g},"
-        quantity, source = "rms error of Q at centres over its peak", "Navier"
+        quantity, source = "rms error of Q at centers over its peak", "Navier"
         for k, card in enumerate(CARDS.values()):
             for n in (2, 4, 8):
                 mesh = meshes(*rectangle(n, n))[k]
@@ -201,7 +201,7 @@ def shear_forces() -> list[Row]:
 
 
 def shear_error(mesh: Mesh, thickness: float) -> float:
-    """Root mean square of the error of Q at the centres over the largest Q there."""
+    """Root mean square of the error of Q at the centers over the largest Q there."""
     points, conn = mesh
     bulk = supported_quarter(mesh, thickness)
     results = run(bulk.deck(101, "SPC = 1\nLOAD = 7\nFORCE = ALL"))
@@ -233,7 +233,7 @@ def shear_of_series(at: np.ndarray) -> np.ndarray:
 
 
 def mindlin_deflection(t: float) -> float:
-    """Centre of a supported plate 2 x 2, E 1e7, nu .3, pressure 1, by double series."""
+    """Center of a supported plate 2 x 2, E 1e7, nu .3, pressure 1, by double series."""
     m = np.arange(1, 200, 2)
     first, second = np.meshgrid(m, m)
     wave = (np.pi / 2.0) ** 2 * (first**2 + second**2)

@@ -280,7 +280,7 @@ def rectangular_plates() -> list[Row]:
     rows = []
     for (clamped, point, b), theirs in cases.items():
         found = [
-            (f"{n} x {n * k}", _plate_centre(n, n * k, b, clamped=clamped, point=point))
+            (f"{n} x {n * k}", _plate_center(n, n * k, b, clamped=clamped, point=point))
             for n, k in ((2, 1), (4, 1), (8, 1), (16, 1), (32, b // 2))
         ]
         case = f"rectangular plate, b/a = {b // 2}"
@@ -298,7 +298,7 @@ def rectangular_plates() -> list[Row]:
     return rows
 
 
-def _plate_centre(nx: int, ny: int, b: float, *, clamped: bool, point: bool) -> float:
+def _plate_center(nx: int, ny: int, b: float, *, clamped: bool, point: bool) -> float:
     points, conn = rectangle(nx, ny)
     xyz = np.c_[points * [1.0, 0.5 * b], np.zeros(len(points))]
     bulk = shell_model(xyz, conn, 1.7472e7, 0.3, 1e-4)

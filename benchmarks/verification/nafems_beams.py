@@ -66,7 +66,7 @@ def fv2() -> list[Row]:
     return rows
 
 
-def off_centre_masses(count: int) -> str:
+def off_center_masses(count: int) -> str:
     """FV4: cantilever of 10 m, 0.5 m round, 10 t and 1 t two metres off its tip."""
     bulk = Bulk("EIGRL,9,,,6\nPARAM,COUPMASS,1")
     _material(bulk)
@@ -84,14 +84,14 @@ def off_centre_masses(count: int) -> str:
 
 
 def fv4() -> list[Row]:
-    """Cantilever with off-centre masses."""
+    """Cantilever with off-center masses."""
     reference = [1.723, 1.727, 7.413, 9.972, 18.155, 26.957]
-    hz = {n: run(off_centre_masses(n))["modes/frequency_hz"] for n in (5, 10, 20)}
+    hz = {n: run(off_center_masses(n))["modes/frequency_hz"] for n in (5, 10, 20)}
     rows = []
     for mode, theirs in enumerate(reference):
         found = [(f"{n} bars", values[mode]) for n, values in hz.items()]
         rows += convergence(
-            "FV4 off-centre masses",
+            "FV4 off-center masses",
             f"mode {mode + 1}, Hz",
             found,
             theirs,

@@ -212,7 +212,7 @@ def plate_transients(meshes: tuple[int, ...] = (8, 16, 32)) -> list[Row]:
     """13T (thin) and 21T (thick): peak, its time, stress, static displacement.
 
     The published peaks are 1.939 times a static value: the first mode alone. All modes
-    together are Navier's series, which stands beside them. Stresses at the centre of
+    together are Navier's series, which stands beside them. Stresses at the center of
     the element next to the middle of the plate, in the series too.
     """
     rows = []

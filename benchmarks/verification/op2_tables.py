@@ -146,8 +146,8 @@ def _compare(
     """Largest difference over the peak of its column.
 
     The scale of a column is at least a hundredth of the table's peak: below lies the
-    noise of single precision. Where the file has corners and we the centre (or the
-    other way round), the centre, which comes first, is compared.
+    noise of single precision. Where the file has corners and we the center (or the
+    other way round), the center, which comes first, is compared.
     """
     width = min(ours.shape[-1], theirs.shape[-1])
     a, b = ours[..., :width], theirs[..., :width]

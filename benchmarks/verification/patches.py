@@ -125,7 +125,7 @@ def solid_patches() -> list[Row]:
 
 
 def _solid_meshes(xyz: np.ndarray) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Bricks; pyramids about their centres; tetrahedra; prisms; each with mid-sides."""
+    """Bricks; pyramids about their centers; tetrahedra; prisms; each with mid-sides."""
     faces = [(0, 1, 2, 3), (4, 7, 6, 5), (0, 4, 5, 1),
              (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0)]  # fmt: skip
     apex = len(xyz) + np.arange(len(_BRICKS))

@@ -57,8 +57,8 @@ class Navier:
         across = -b[1, 1] * y**2 * v + (d[1, 1] * y**3 + mixed * y * x**2) * w
         return x, y, along, across, w
 
-    def centre(self) -> float:
-        """Deflection of the centre."""
+    def center(self) -> float:
+        """Deflection of the center."""
         x, y, _, _, w = self._amplitudes()
         return float((w * np.sin(0.5 * x) * np.sin(0.5 * y)).sum())
 
@@ -132,7 +132,7 @@ def _figures(nx: int, ny: int, **options: object) -> dict[str, tuple[float, floa
     w = ours["static/1/displacement"][:, 2]
     reaction = -ours["static/1/spc_force"][:, 2]
     middle = (points == 0.5).all(axis=1)
-    found = {"deflection of the centre": (float(w[middle][0]), theory.centre())}
+    found = {"deflection of the center": (float(w[middle][0]), theory.center())}
     for axis, name, count in ((0, "x", ny), (1, "y", nx)):
         at = (points[:, axis] == 0.0) & (points[:, 1 - axis] == 0.5)
         theirs = theory.reaction(axis, count)

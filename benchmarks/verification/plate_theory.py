@@ -88,7 +88,7 @@ def ritz_frequencies(
 
 
 def ritz_deflection(a: float, b: float, nu: float, *, terms: int = 14) -> float:
-    """Centre deflection of a plate with all edges clamped: w D / (q a⁴)."""
+    """Center deflection of a plate with all edges clamped: w D / (q a⁴)."""
     edges = (True, True)
     stiffness, _ = _matrices(a, b, nu, edges, edges, terms)
     x, w = np.polynomial.legendre.leggauss(2 * terms + 6)
@@ -183,7 +183,7 @@ class StepSeries:
         return whole * shape, 0.5 * self.thickness * modulus * curvature * shape, omega
 
     def static(self) -> float:
-        """Deflection of the centre at rest, m."""
+        """Deflection of the center at rest, m."""
         return float(self._weights(0.5 * self.side, 0.5 * self.side)[0].sum())
 
     def histories(self, time: Float64, x: float, y: float) -> tuple[Float64, Float64]:

@@ -61,7 +61,7 @@ def chains_of_hexa20() -> list[Row]:
         worst = shear[np.argmax(np.abs(shear - 60.0))]
         case = f"cantilever of {count} CHEXA20"
         rows.append(
-            figure(case, "shear at all centres, P/A", worst, 60.0, "equilibrium")
+            figure(case, "shear at all centers, P/A", worst, 60.0, "equilibrium")
         )
         # Plane sections, shear by the whole area: what the shapes can describe.
         tip = 120 * 8**3 / (3 * 1e6 * 8 / 12) + 120 * 8 / (5e5 * 2)
@@ -213,7 +213,7 @@ def single_hexa20() -> list[Row]:
         ("force of constraint, held corner, N", r[4, 0], 0.0044177),
         ("force of constraint, mid-side of 2.5 mm, N", r[19, 0], -0.009169458),
         ("force of constraint, mid-side of 5 mm, N", r[16, 0], 0.001964413),
-        ("txz at the centre, Pa", stress[0, 5], 130.428),
+        ("txz at the center, Pa", stress[0, 5], 130.428),
         ("ozz at a held corner, Pa", stress[5, 2], 2900.46),
         ("txy at a held corner, Pa", stress[5, 3], 250.197),
         ("tyz at a held corner, Pa", stress[5, 4], -156.254),
@@ -257,7 +257,7 @@ def distorted_tetra10() -> list[Row]:
         ("u2 at the force", u[at[2154], 1], -1.289517e-5),
         ("u3 at the force", u[at[2154], 2], 4.16372e-5),
         ("u3 of a mid-side", u[at[2487], 2], 2.368923e-5),
-        ("oxx at the centre of 1", ours.column(table, "oxx")[0], -248.031),
+        ("oxx at the center of 1", ours.column(table, "oxx")[0], -248.031),
         ("oxx at a corner of 1", ours.column(table, "c3_oxx")[0], -2305.923),
         ("txy at a corner of 2", ours.column(table, "c4_txy")[1], 804.0324),
     ]

@@ -109,7 +109,7 @@ _WHAT = {
     114: "curved", 115: "curved, composite, offset",
     116: "curved, offset",
     112: "offset", 113: "composite, offset",
-    132: "offset", 133: "offset, pinned", 134: "tapered, offset, shear centre offset",
+    132: "offset", 133: "offset, pinned", 134: "tapered, offset, shear center offset",
     151: "warped", 161: "ELEM", 162: "ELEMID", 163: "ALIGN",
 }  # fmt: skip
 

@@ -41,7 +41,7 @@ class Basis:
     Attributes:
         frequency_hz: (n,).
         shape: (f, n).
-        rigid: (f, 6) unit rigid motions about the centre of weight: basic axes.
+        rigid: (f, 6) unit rigid motions about the center of weight: basic axes.
         freedoms: of the model whose modes these are (f, or of the reduced one).
         notices: what the user should know.
     """

@@ -206,7 +206,7 @@ def modal_body(
 
 
 def mass_properties(structure: Structure) -> tuple[float, Float64, Float64]:
-    """Mass (kg), centre of gravity (3,) and inertia about it (3, 3), basic axes.
+    """Mass (kg), center of gravity (3,) and inertia about it (3, 3), basic axes.
 
     They are those of the mass matrix of the free set, hence of the direct transient.
     """

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.gear_places import place_remarks, shell_attachments
 from drake_landing.case.axes import gear_in_A
-from drake_landing.gears.bodies import mass_points, tip_below_root, wheel_centres
+from drake_landing.gears.bodies import mass_points, tip_below_root, wheel_centers
 from drake_landing.gears.data import LandingGear, LeveredGear
 from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
@@ -159,7 +159,7 @@ def gear_remarks(
     Args:
         gears: in A.
         mass: of the airframe, kg.
-        p_AG: (3,) its centre of gravity in A, m.
+        p_AG: (3,) its center of gravity in A, m.
     """
     remarks = _direction_remarks(gears, float(np.asarray(p_AG)[0]))
     remarks += [
@@ -175,7 +175,7 @@ def gear_remarks(
         load = loads[gear.name]
         if load <= 0.0:
             remarks.append(
-                f"gears.{gear.name}: carries {load / 1e3:.4g} kN at rest: the centre "
+                f"gears.{gear.name}: carries {load / 1e3:.4g} kN at rest: the center "
                 "of gravity lies outside the wheels"
             )
             continue
@@ -184,13 +184,13 @@ def gear_remarks(
     return tuple(remarks)
 
 
-def _direction_remarks(gears: Sequence[LandingGear], centre: float) -> list[str]:
-    """Nose gears behind the centre of gravity: the deck may point the other way."""
+def _direction_remarks(gears: Sequence[LandingGear], center: float) -> list[str]:
+    """Nose gears behind the center of gravity: the deck may point the other way."""
     behind = {
-        gear.name: np.mean([axle[0] for axle in gear.axles]) - centre for gear in gears
+        gear.name: np.mean([axle[0] for axle in gear.axles]) - center for gear in gears
     }
     return [
-        f"airframe.axes.forward: gear {name} lies {away:.3g} m behind the centre of "
+        f"airframe.axes.forward: gear {name} lies {away:.3g} m behind the center of "
         "gravity, seen in the direction of flight: does the deck point that way?"
         for name, away in behind.items()
         if name.startswith("nose") and away > 0.0
@@ -209,7 +209,7 @@ def static_loads(
         items += mass_points(gear)
     weight = STANDARD_GRAVITY * np.array([m for m, _ in items])
     arms = np.array([p for _, p in items])
-    feet = [np.mean(list(wheel_centres(gear).values()), axis=0) for gear in gears]
+    feet = [np.mean(list(wheel_centers(gear).values()), axis=0) for gear in gears]
     rows = np.array([[1.0, foot[0], foot[1]] for foot in feet]).T
     wanted = np.array([weight.sum(), weight @ arms[:, 0], weight @ arms[:, 1]])
     loads = np.linalg.lstsq(rows, wanted, rcond=1e-9)[0]

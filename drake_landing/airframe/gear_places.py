@@ -1,4 +1,4 @@
-"""Where landing gears stand: on which grids, round which centre, how they touch down.
+"""Where landing gears stand: on which grids, round which center, how they touch down.
 
 All in the axes A: x aft, y to starboard, z up.
 """
@@ -9,14 +9,14 @@ import numpy as np
 import numpy.typing as npt
 from scipy.optimize import brentq
 
-from drake_landing.gears.bodies import mass_points, wheel_centres
+from drake_landing.gears.bodies import mass_points, wheel_centers
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.initial_state import attitude
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
 
-_OFF_CENTRE = 0.3  # m, from where on a side is a side
+_OFF_CENTER = 0.3  # m, from where on a side is a side
 _PITCH = np.radians([-25.0, 35.0])  # in which a pitch is looked for
 _SHELLS = frozenset({"CQUAD4", "CTRIA3", "CQUADR", "CTRIAR", "CQUAD8", "CTRIA6"})
 
@@ -27,7 +27,7 @@ def place_remarks(
     mass: float,
     p_AG: npt.ArrayLike,
 ) -> list[str]:
-    """Gears on one grid, wheels on the other side, a centre of gravity outside them.
+    """Gears on one grid, wheels on the other side, a center of gravity outside them.
 
     Args:
         gears: in A.
@@ -58,10 +58,10 @@ def _across(
 ) -> Iterator[str]:
     for gear in gears:
         node, axle = places[gear.name][1], float(np.mean([a[1] for a in gear.axles]))
-        if node * axle < 0.0 and min(abs(node), abs(axle)) > _OFF_CENTRE:
+        if node * axle < 0.0 and min(abs(node), abs(axle)) > _OFF_CENTER:
             yield (
                 f"gears.{gear.name}.attachment_node: grid {gear.attachment_node} lies "
-                f"{abs(node):.3g} m to {_side(node)} of the deck's centre plane, the "
+                f"{abs(node):.3g} m to {_side(node)} of the deck's center plane, the "
                 f"axle {abs(axle):.3g} m to {_side(axle)}"
             )
 
@@ -71,20 +71,20 @@ def _side(y: float) -> str:
 
 
 def _outside(gears: Sequence[LandingGear], mass: float, p_AG: Float64) -> Iterator[str]:
-    """The centre of gravity of the whole ahead of, behind or beside all wheels."""
+    """The center of gravity of the whole ahead of, behind or beside all wheels."""
     items = [(mass, p_AG), *(item for gear in gears for item in mass_points(gear))]
     whole = np.array([m for m, _ in items])
-    centre = whole @ np.array([p for _, p in items]) / whole.sum()
-    wheels = np.array([p for gear in gears for p in wheel_centres(gear).values()])
+    center = whole @ np.array([p for _, p in items]) / whole.sum()
+    wheels = np.array([p for gear in gears for p in wheel_centers(gear).values()])
     for axis, before, after in ((0, "ahead of", "behind"), (1, "to port", "starboard")):
         low, high = wheels[:, axis].min(), wheels[:, axis].max()
-        away = max(low - centre[axis], centre[axis] - high)
+        away = max(low - center[axis], center[axis] - high)
         if away <= 1e-3:
             continue
-        where = before if centre[axis] < low else after
+        where = before if center[axis] < low else after
         side = f"{where} all wheels" if axis == 0 else f"{where} of all wheels"
         yield (
-            f"gears: the centre of gravity of the whole aircraft lies {away:.3g} m "
+            f"gears: the center of gravity of the whole aircraft lies {away:.3g} m "
             f"{side}: it cannot stand on them"
         )
 
@@ -123,7 +123,7 @@ def clearances(gears: Sequence[LandingGear], R_WB: Float64) -> dict[str, float]:
     heights = {
         gear.name: min(
             float(R_WB[2] @ p) - _reach(gear.tire_of(wheel).radius, R_WB)
-            for wheel, p in wheel_centres(gear).items()
+            for wheel, p in wheel_centers(gear).items()
         )
         for gear in gears
     }
@@ -132,7 +132,7 @@ def clearances(gears: Sequence[LandingGear], R_WB: Float64) -> dict[str, float]:
 
 
 def _reach(radius: float, R_WB: Float64) -> float:
-    """How far a tire reaches below its centre; a tilted wheel reaches less."""
+    """How far a tire reaches below its center; a tilted wheel reaches less."""
     return radius * float(np.sqrt(max(1.0 - R_WB[2, 1] ** 2, 0.0)))
 
 
@@ -143,7 +143,7 @@ def pitch_of_all(gears: Sequence[LandingGear]) -> float | None:
     """
     x = [float(np.mean([axle[0] for axle in gear.axles])) for gear in gears]
     ends = [gears[int(np.argmin(x))], gears[int(np.argmax(x))]]
-    if max(x) - min(x) < _OFF_CENTRE:
+    if max(x) - min(x) < _OFF_CENTER:
         return None
 
     def lower(pitch: float) -> float:

@@ -154,7 +154,7 @@ def _scaled(card: RawCard, factor: float) -> str:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Loaded:
-    """Mass and centre of gravity of an aircraft, in the deck's axes, gears extended.
+    """Mass and center of gravity of an aircraft, in the deck's axes, gears extended.
 
     Attributes:
         mass: with gears, kg.
@@ -188,7 +188,7 @@ def check_target(
     """The mass case weighs what it says.
 
     Raises:
-        InputError: mass off by more than 1 %, or the centre of gravity by more than
+        InputError: mass off by more than 1 %, or the center of gravity by more than
             the tolerance.
     """
     problems = list(_off_target(loaded(structure, gears), given, field))

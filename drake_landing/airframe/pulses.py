@@ -2,7 +2,7 @@
 
 Each gear is dropped on its own (`drop`) with its share of the aircraft, at the sink
 rate and the speed of the scenario; drag and side force act at the axle. Side force
-comes from drift, and, on gears off the centre plane, from an airframe that bends and
+comes from drift, and, on gears off the center plane, from an airframe that bends and
 swings its wheels sideways: a share of the drag, as sudden, stands for it. A leg that
 bends hands both on as spring and damper of a mass at the axle do (root clamped, the
 other motions locked): the drag swings back. Where aircraft and scenario are symmetric,
@@ -31,7 +31,7 @@ STEP, DURATION = 5e-4, 0.6  # s: ten periods of the first bending, of 2 Hz: one
 # Side force over drag where the airframe swings the wheels while they spin up: 0.08 to
 # 0.16 in landings of the reference aircraft without drift.
 _SWING = 0.1
-_CENTRE = 0.1  # m, within which a gear stands in the centre plane
+_CENTER = 0.1  # m, within which a gear stands in the center plane
 _LEAST_SHARE = 0.02  # of the aircraft: a gear that would unload in a level landing
 
 
@@ -170,7 +170,7 @@ def _side_ratio(gear: LandingGear, scenario: Scenario, share: float) -> float:
 def _swing(gear: LandingGear, p_AG: Float64) -> float:
     """Side force over drag of a gear that hangs from a wing."""
     offset = float(np.mean(gear.axles, axis=0)[1] - p_AG[1])
-    return _SWING * float(np.sign(offset)) if abs(offset) > _CENTRE else 0.0
+    return _SWING * float(np.sign(offset)) if abs(offset) > _CENTER else 0.0
 
 
 def through_leg(

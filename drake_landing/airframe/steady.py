@@ -40,7 +40,7 @@ def steady_flight(
         units: of the deck and of a file of loads.
 
     Raises:
-        InputError: an unknown grid or load set, nodes that do not surround the centre
+        InputError: an unknown grid or load set, nodes that do not surround the center
             of gravity, or a load set that does not carry the weight.
     """
     whole, up = loaded(structure, gears), R_AB[2]

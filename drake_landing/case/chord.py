@@ -15,7 +15,7 @@ class Chord(Section):
     chord: float = number("its length", "m", gt=0)
 
     def percent(self, center: Float64, R_AB: Float64) -> float:
-        """A centre of gravity in % of the chord, aft of its leading edge.
+        """A center of gravity in % of the chord, aft of its leading edge.
 
         Args:
             center: (3,) in the deck's axes, m.

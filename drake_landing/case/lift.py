@@ -76,13 +76,13 @@ class Lift(Section):
 
     nodes: tuple[int, ...] = Field(
         default=(),
-        description="grids that carry the lift, round the centre of gravity; the "
+        description="grids that carry the lift, round the center of gravity; the "
         "built-in models have their own",
     )
     shares: tuple[float, ...] | None = Field(
         default=None,
         description="of each node, >= 0, tilted such that the resultant passes the "
-        "centre of gravity; default equal",
+        "center of gravity; default equal",
     )
     factor: float = number("lift over weight at touchdown", "1", 1.0, ge=0, le=1.5)
     decay_start: float = number("when the lift begins to fall", "s", 0.0, ge=0)

@@ -187,10 +187,10 @@ class RunwaySection(Section):
         description="height over distance ahead of the foremost tire; default flat",
     )
     crown: float = number(
-        "fall to either side of the centre line, over distance", "1", 0.0, ge=0, le=0.1
+        "fall to either side of the center line, over distance", "1", 0.0, ge=0, le=0.1
     )
     offset: float = number(
-        "of the aircraft at the start from the centre line, to starboard",
+        "of the aircraft at the start from the center line, to starboard",
         "m",
         0.0,
         ge=-50,

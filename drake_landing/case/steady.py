@@ -25,12 +25,12 @@ class Steady(Section):
     )
     nodes: tuple[int, ...] = Field(
         default=(),
-        description="instead: grids that carry the lift, round the centre of gravity",
+        description="instead: grids that carry the lift, round the center of gravity",
     )
     shares: tuple[float, ...] | None = Field(
         default=None,
         description="of each node, >= 0, tilted such that the resultant passes the "
-        "centre of gravity; default equal",
+        "center of gravity; default equal",
     )
 
     @field_validator("file", mode="after")

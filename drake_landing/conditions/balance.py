@@ -32,8 +32,8 @@ class RigidBalance:
 
     Attributes:
         case: which.
-        ground: (6,) all loads, about the centre of gravity.
-        center: (3,) centre of gravity, m.
+        ground: (6,) all loads, about the center of gravity.
+        center: (3,) center of gravity, m.
         acceleration: (6,) of it, and angular.
         factors: (3,) load factors of the ground: aft, to starboard, up, G.
         handed: gear -> (6,) load on the airframe, about the origin.

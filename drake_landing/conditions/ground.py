@@ -1,7 +1,7 @@
 """The aircraft on the ground as the rules speak of it, and the load cases they want.
 
 Ground axes G: x aft, y to starboard, z up, square to the runway; places are relative to
-the aircraft's centre of gravity. A pose is how far shock absorbers and tires are
+the aircraft's center of gravity. A pose is how far shock absorbers and tires are
 deflected, and the attitude. Forces are those of the ground on the aircraft: drag aft,
 side to starboard, vertical up, N.
 """
@@ -69,12 +69,12 @@ class Gear:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class GearPlace:
-    """Where a gear is in a pose, G, relative to the centre of gravity.
+    """Where a gear is in a pose, G, relative to the center of gravity.
 
     Attributes:
         ground: (3,) middle of its wheels' points on the ground, m.
         axle: (3,) middle of its axles, m.
-        unsprung: (3,) centre of gravity of what moves below the shock absorber, m.
+        unsprung: (3,) center of gravity of what moves below the shock absorber, m.
         extension: (3,) unit vector in which it extends.
     """
 
@@ -152,7 +152,7 @@ class GearLoad:
     Attributes:
         gear: its name.
         at: where it acts: the middle of its wheels on the ground, of its axles, or the
-            centre of gravity of the unsprung parts.
+            center of gravity of the unsprung parts.
         force: (3,) N, G.
         moment: (3,) N m, G.
         what: kind of the load, where it is not that of the ground.

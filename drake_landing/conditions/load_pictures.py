@@ -147,7 +147,7 @@ def _color(one: GearLoad) -> str:
 
 
 def _outline(airframe: Skeleton, posed: Posed) -> Float64:
-    """(e, 2, 3) lines of the airframe in a pose, G, from the centre of gravity."""
+    """(e, 2, 3) lines of the airframe in a pose, G, from the center of gravity."""
     p = (airframe.p - posed.whole.center) @ posed.R_AG
     return p[airframe.edges]
 

@@ -14,7 +14,7 @@ class RigidMass:
 
     Attributes:
         mass: kg.
-        center: (3,) centre of gravity, m.
+        center: (3,) center of gravity, m.
         inertia: (3, 3) tensor about it, products of inertia negative, kg m².
     """
 
@@ -24,7 +24,7 @@ class RigidMass:
 
     @property
     def radii(self) -> Float64:
-        """(3,) of gyration about the centre of gravity, m."""
+        """(3,) of gyration about the center of gravity, m."""
         return np.sqrt(np.diag(self.inertia) / self.mass)
 
     def inertia_load(self, acceleration: Float64, about: Float64) -> Float64:
@@ -53,5 +53,5 @@ def together(parts: Iterable[RigidMass]) -> RigidMass:
 
 
 def acceleration_under(whole: RigidMass, load: Float64) -> Float64:
-    """(6,) of a free body under a load (6,) about its centre of gravity."""
+    """(6,) of a free body under a load (6,) about its center of gravity."""
     return np.r_[load[:3] / whole.mass, np.linalg.solve(whole.inertia, load[3:])]

@@ -53,7 +53,7 @@ class Posed:
     """The aircraft in a pose.
 
     Attributes:
-        places: of the gears, G, relative to the aircraft's centre of gravity.
+        places: of the gears, G, relative to the aircraft's center of gravity.
         R_AG: (3, 3) ground axes in A.
         whole: the aircraft with its gears, A.
         gears: each gear, A.
@@ -71,7 +71,7 @@ class Posed:
 
     @property
     def height(self) -> float:
-        """Of the centre of gravity above the lowest tire's ground, m."""
+        """Of the center of gravity above the lowest tire's ground, m."""
         return -min(float(place.ground[2]) for place in self.places.values())
 
 
@@ -212,7 +212,7 @@ class GearStand:
         return self.landing.tires[wheel].contact(self.context)[:]
 
     def _wheel(self, wheel: str) -> Float64:
-        """(3,) centre of a wheel, A."""
+        """(3,) center of a wheel, A."""
         kinematics = self.landing.wheel_kinematics
         of_system = kinematics.GetMyContextFromRoot(self.context)
         p_WC = kinematics.GetOutputPort(f"wheel_{wheel}").Eval(of_system)[:3]

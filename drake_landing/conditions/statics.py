@@ -1,7 +1,7 @@
 """Reactions of the ground from equilibrium: which vertical loads balance the aircraft.
 
 Every vertical reaction Z may bring drag and side loads in proportion to it. With the
-weight n W at the centre of gravity, the sum of the vertical loads, the pitching and the
+weight n W at the center of gravity, the sum of the vertical loads, the pitching and the
 rolling moment vanish; of more than three gears the loads deviate least from those at
 rest (least squares of the deviation over the root of the load at rest).
 """
@@ -85,14 +85,14 @@ def middle_of_mains(aircraft: GroundAircraft) -> Float64:
 
 
 def point(place: GearPlace, at: At) -> Float64:
-    """(3,) where a load acts, G, relative to the centre of gravity, m."""
+    """(3,) where a load acts, G, relative to the center of gravity, m."""
     return {"ground": place.ground, "axle": place.axle, "unsprung": place.unsprung}[at]
 
 
 def resultant(
     loads: Sequence[GearLoad], places: Mapping[str, GearPlace]
 ) -> tuple[Float64, Float64]:
-    """(3,) force and (3,) moment about the centre of gravity, G."""
+    """(3,) force and (3,) moment about the center of gravity, G."""
     force, moment = np.zeros(3), np.zeros(3)
     for one in loads:
         force += one.force

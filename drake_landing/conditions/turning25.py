@@ -82,7 +82,7 @@ def nose_yaw(aircraft: GroundAircraft) -> Iterator[BookCase]:
 def one_side_braked(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """25.499(b), (c): brakes of one side; the nose wheel holds the heading.
 
-    Loads of the nose wheel from equilibrium, no side load factor at the centre of
+    Loads of the nose wheel from equilibrium, no side load factor at the center of
     gravity: the main wheels take the opposite side load. Beyond 0.8 of the nose
     wheel's vertical load inertia takes the yawing moment.
     """

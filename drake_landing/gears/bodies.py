@@ -13,7 +13,7 @@ and to the side, and for torsion (`leg_hinges`).
 All body frames are parallel to the airframe frame B in the extended gear, but that all
 below the fitting of a steered gear are turned by its angle: the fitting's origin is the
 attachment point, that of an arm or beam its pivot, a piston's the middle of the axle or
-the beam's pivot, a wheel's its centre.
+the beam's pivot, a wheel's its center.
 """
 
 import math
@@ -118,7 +118,7 @@ def leg_axis(gear: LandingGear) -> Float64:
 
 def leg_lines(gear: LandingGear, p_BA: Float64) -> dict[str, tuple[Float64, Float64]]:
     """Hinges of an elastic leg: place (3,) (m) and unit vector (3,) of each in B."""
-    return hinge_lines(gear, p_BA, _centre(gear), leg_axis(gear))
+    return hinge_lines(gear, p_BA, _center(gear), leg_axis(gear))
 
 
 def tip_below_root(gear: LandingGear, p_BA: Float64) -> float | None:
@@ -149,8 +149,8 @@ def steering(gear: LandingGear) -> RotationMatrix:
     return RotationMatrix(exp(-angle * axis[None])[0])
 
 
-def wheel_centres(gear: LandingGear) -> dict[str, Float64]:
-    """Wheel name -> (3,) centre in B (x aft, y starboard), gear extended, m."""
+def wheel_centers(gear: LandingGear) -> dict[str, Float64]:
+    """Wheel name -> (3,) center in B (x aft, y starboard), gear extended, m."""
     places = [
         _steered(gear, np.array(axle) + offset * np.array(_LATERAL))
         for axle in gear.axles
@@ -160,11 +160,11 @@ def wheel_centres(gear: LandingGear) -> dict[str, Float64]:
 
 
 def mass_points(gear: LandingGear) -> list[tuple[float, Float64]]:
-    """Mass (kg) and centre of gravity (3,) in B (m) of each body, gear extended."""
+    """Mass (kg) and center of gravity (3,) in B (m) of each body, gear extended."""
     points = [(part.mass, np.array(part.cg)) for part in gear.sprung_parts.values()]
     parts = gear.moving_parts.values()
     points += [(part.mass, _steered(gear, part.cg)) for part in parts]
-    return points + [(gear.wheel.mass, p) for p in wheel_centres(gear).values()]
+    return points + [(gear.wheel.mass, p) for p in wheel_centers(gear).values()]
 
 
 def _raked_axis(gear: LandingGear) -> Float64:
@@ -172,7 +172,7 @@ def _raked_axis(gear: LandingGear) -> Float64:
     return np.array([math.sin(rake), 0.0, math.cos(rake)])
 
 
-def _centre(gear: LandingGear) -> Float64:
+def _center(gear: LandingGear) -> Float64:
     """(3,) in B what the gear is steered about: pivot, or middle of the axle."""
     if isinstance(gear, LeveredGear | BogieGear):
         return np.array(gear.pivot)
@@ -181,8 +181,8 @@ def _centre(gear: LandingGear) -> Float64:
 
 def _steered(gear: LandingGear, p_B: npt.ArrayLike) -> Float64:
     """A point below the fitting, where the steering has turned it to."""
-    centre = _centre(gear)
-    return centre + steering(gear).matrix() @ (np.asarray(p_B) - centre)
+    center = _center(gear)
+    return center + steering(gear).matrix() @ (np.asarray(p_B) - center)
 
 
 def AddLandingGear(
@@ -208,18 +208,18 @@ def AddLandingGear(
         f"{gear.name}_fitting", part_inertia(gear.fitting, attachment)
     )
     leg = add_leg_hinges(
-        plant, gear, fitting, attachment, centre=_centre(gear), axis=leg_axis(gear)
+        plant, gear, fitting, attachment, center=_center(gear), axis=leg_axis(gear)
     )
     moving = _add_moving(gear, plant, leg.body, leg.p_BO)
     carrier = list(moving.parts.values())[-1]
     wheels, spins = {}, {}
     straight = gear.model_copy(update={"steering_deg": 0.0})
-    for name, centre in wheel_centres(straight).items():
+    for name, center in wheel_centers(straight).items():
         wheels[name] = plant.AddRigidBody(f"{name}_wheel", _wheel_inertia(gear))
         spins[name] = plant.AddJoint(
             RevoluteJoint(
                 f"{name}_spin",
-                _offset(plant, f"{name}_axle", carrier, centre - moving.p_BO),
+                _offset(plant, f"{name}_axle", carrier, center - moving.p_BO),
                 wheels[name].body_frame(),
                 _LATERAL,
             )

@@ -62,7 +62,7 @@ class LandingGear(Data):
     )
     wheel_offsets: tuple[float, ...] = Field(
         min_length=1,
-        description="wheel centres along the axle from its middle, m, starboard > 0, "
+        description="wheel centers along the axle from its middle, m, starboard > 0, "
         "ascending, e.g. [-0.465, 0.465] for a twin",
     )
     steering_deg: float = Field(

@@ -59,7 +59,7 @@ def add_leg_hinges(
     fitting: RigidBody,
     p_BA: Float64,
     *,
-    centre: Float64,
+    center: Float64,
     axis: Float64,
 ) -> LegHinges:
     """Adds the hinges of a gear's leg; a rigid leg has none.
@@ -68,11 +68,11 @@ def add_leg_hinges(
         plant: not yet finalised.
         gear: its data.
         fitting: of the gear, origin at p_BA (3,), m.
-        centre: (3,) in B, axle or pivot, through which the strut axis passes.
+        center: (3,) in B, axle or pivot, through which the strut axis passes.
         axis: (3,) in B, of the strut, up.
     """
     body, origin, hinges = fitting, p_BA, {}
-    for kind, (place, about) in hinge_lines(gear, p_BA, centre, axis).items():
+    for kind, (place, about) in hinge_lines(gear, p_BA, center, axis).items():
         inertia = SpatialInertia.Zero()
         if gear.cylinder is not None and kind == last_bending(gear):
             inertia = part_inertia(gear.cylinder, place)
@@ -91,11 +91,11 @@ def add_leg_hinges(
 
 
 def hinge_lines(
-    gear: LandingGear, p_BA: Float64, centre: Float64, axis: Float64
+    gear: LandingGear, p_BA: Float64, center: Float64, axis: Float64
 ) -> dict[str, tuple[Float64, Float64]]:
     """Hinges of a gear's leg: place (3,) and unit vector (3,) in B; see above."""
     return {
-        kind: (_root(gear, kind, p_BA, centre, axis), hinge_axis(kind, axis))
+        kind: (_root(gear, kind, p_BA, center, axis), hinge_axis(kind, axis))
         for kind in elastic_kinds(gear.leg)
     }
 
@@ -129,18 +129,18 @@ def elastic_kinds(leg: Leg | None) -> tuple[str, ...]:
 
 
 def _root(
-    gear: LandingGear, kind: str, p_BA: Float64, centre: Float64, axis: Float64
+    gear: LandingGear, kind: str, p_BA: Float64, center: Float64, axis: Float64
 ) -> Float64:
     """(3,) where a hinge lies in B."""
     leg = gear.leg
     assert leg is not None
     if kind == "torsion":
-        return centre + ((p_BA - centre) @ axis) * axis
+        return center + ((p_BA - center) @ axis) * axis
     if leg.beam is not None:
         stroke = _REFERENCE_STROKE * gear.shock_absorber.stroke
         above = stroke + root_distance(leg.beam, stroke, kind == "lateral")
-        return centre + above * axis
+        return center + above * axis
     if leg.matrix is not None:
         K, about = np.array(leg.matrix.stiffness), hinge_axis(kind, axis)
-        return centre + leg_matrix.root_distance(K, about, axis) * axis
+        return center + leg_matrix.root_distance(K, about, axis) * axis
     return p_BA if leg.root is None else np.array(leg.root)

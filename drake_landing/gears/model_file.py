@@ -200,7 +200,7 @@ class _Model:
             )
 
     def _mass_properties(self, bodies: Any) -> tuple[float, Float64, Float64]:
-        """Mass, centre of gravity and (3, 3) central inertia in B."""
+        """Mass, center of gravity and (3, 3) central inertia in B."""
         plant = self._plant
         M = plant.CalcSpatialInertia(
             self._context, plant.world_frame(), [body.index() for body in bodies]
@@ -265,7 +265,7 @@ def _rigid_part(name: str, part: tuple[float, Float64, Float64]) -> dict[str, An
     if products > _SLIGHT * moments.max():
         raise ValueError(
             f"{name}: found a product of inertia of {products:.4g} kg m² about its "
-            f"centre of gravity, expected less than {_SLIGHT:.0%} of the largest "
+            f"center of gravity, expected less than {_SLIGHT:.0%} of the largest "
             f"moment, {moments.max():.4g}: parts have the axes of the deck"
         )
     return {

@@ -55,7 +55,7 @@ class MountedTire(_Mounted):
         return TireContact(self._output(root, "contact"))
 
     def wrench(self, root: Context) -> Any:
-        """(6,) [torque; force] on the wheel at its centre, W, N m and N."""
+        """(6,) [torque; force] on the wheel at its center, W, N m and N."""
         return self._output(root, "wrench")
 
     def clearance(self, root: Context) -> Any:

@@ -25,9 +25,9 @@ class RigidPart(Data):
     """Mass properties of one rigid part."""
 
     mass: Positive = Field(description="mass, kg, > 0")
-    cg: Vector3 = Field(description="centre of gravity in B, gear extended, m")
+    cg: Vector3 = Field(description="center of gravity in B, gear extended, m")
     inertia: tuple[Positive, Positive, Positive] = Field(
-        description="principal moments of inertia about the centre of gravity along "
+        description="principal moments of inertia about the center of gravity along "
         "the axes of B, kg m², > 0; none may exceed the sum of the others"
     )
 
@@ -49,7 +49,7 @@ class Wheel(Data):
     spin_inertia: Positive = Field(description="about the axle, kg m², > 0")
     transverse_inertia: Positive | None = Field(
         default=None,
-        description="about any axis across the axle through the wheel centre, kg m², "
+        description="about any axis across the axle through the wheel center, kg m², "
         "> half the spin inertia; default 0.6 of the spin inertia",
     )
 

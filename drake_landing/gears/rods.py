@@ -50,7 +50,7 @@ def rods(gear: LandingGear, p_AF: npt.ArrayLike) -> list[Rod]:
         return [
             *_strut(gear, attachment, pivot),
             Rod(body=f"{gear.name}_beam", start=beam[0], end=beam[-1], thickness=0.8),
-            *(_axle(gear, f"{gear.name}_beam", centre) for centre in beam),
+            *(_axle(gear, f"{gear.name}_beam", center) for center in beam),
         ]
     axle = np.array(gear.axles[0])
     return [
@@ -101,14 +101,14 @@ def _levered(gear: LeveredGear, attachment: Float64) -> list[Rod]:
     ]
 
 
-def _axle(gear: LandingGear, body: str, centre: Float64) -> Rod:
+def _axle(gear: LandingGear, body: str, center: Float64) -> Rod:
     """Across, to the outermost wheels."""
     side = np.array([0.0, 1.0, 0.0])
     left, right = min(gear.wheel_offsets[0], 0.0), max(gear.wheel_offsets[-1], 0.0)
     return Rod(
         body=body,
-        start=centre + left * side,
-        end=centre + right * side,
+        start=center + left * side,
+        end=center + right * side,
         thickness=0.6,
         bright=True,
     )

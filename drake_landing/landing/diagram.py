@@ -25,7 +25,7 @@ from drake_landing.gears.attachment_points import (
     attachment_points,
     require_shared_loads,
 )
-from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centres
+from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centers
 from drake_landing.gears.data import LandingGear
 from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire, each_of
 from drake_landing.gears.systems import AddGearSystems, GearSystems, connect
@@ -252,13 +252,13 @@ def MakeLandingDiagram(
 
 
 def _default_height(body: ModalBody, gears: Sequence[LandingGear]) -> float:
-    """Height of the centre of gravity in a default context, m: tires are off an even
+    """Height of the center of gravity in a default context, m: tires are off an even
     runway by `_OFF_GROUND`.
     """
     lowest = min(
-        centre[2] - gear.tire_of(wheel).radius
+        center[2] - gear.tire_of(wheel).radius
         for gear in gears
-        for wheel, centre in wheel_centres(gear).items()
+        for wheel, center in wheel_centers(gear).items()
     )
     return float(body.p_BG[2] - lowest) + _OFF_GROUND
 

@@ -47,12 +47,12 @@ def set_static_equilibrium(
         landing: the diagram and its parts.
         context: of the diagram.
         speed: m/s, in the direction of the nose.
-        xy: (2,) airframe's centre of gravity over ground, W, m.
+        xy: (2,) airframe's center of gravity over ground, W, m.
         heading: rad, to starboard of -x.
         tolerance: largest acceleration that is left, m/s² and rad/s².
 
     Raises:
-        ValueError: no gravity, or no state of rest is found: the centre of gravity
+        ValueError: no gravity, or no state of rest is found: the center of gravity
             lies outside the wheels, or lift carries the aircraft.
     """
     if not landing.gravity > 0:
@@ -145,7 +145,7 @@ class _Rest:
             raise ValueError(
                 "static equilibrium: no state of rest found, accelerations of "
                 f"{np.abs(residual).max():.3g} m/s² or rad/s² are left; expected a "
-                "centre of gravity between the wheels, and lift below the weight"
+                "center of gravity between the wheels, and lift below the weight"
             )
 
     def _step(self, u: Float64, residual: Float64) -> Float64:

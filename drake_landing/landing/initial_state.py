@@ -47,12 +47,12 @@ def set_initial_state(
     Args:
         landing: the diagram and its parts.
         context: of the diagram.
-        v_WG: (3,) velocity of the airframe's centre of gravity in W, m/s.
+        v_WG: (3,) velocity of the airframe's center of gravity in W, m/s.
         R_WB: (3, 3) attitude; default level, flying toward -x.
         w_B: (3,) angular velocity in B, rad/s.
-        xy: (2,) airframe's centre of gravity over ground, W, m.
+        xy: (2,) airframe's center of gravity over ground, W, m.
         clearance: of the lowest tire over the runway, m.
-        height: of the airframe's centre of gravity, W, m, in place of a clearance.
+        height: of the airframe's center of gravity, W, m, in place of a clearance.
 
     Raises:
         ValueError: clearance is negative, a wheel is below the runway, or lies on its

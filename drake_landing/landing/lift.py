@@ -57,7 +57,7 @@ class Lift:
     """Lift over nodes of the airframe.
 
     Attributes:
-        nodes: grids that carry it; its resultant passes the aircraft's centre of
+        nodes: grids that carry it; its resultant passes the aircraft's center of
             gravity, which they must surround.
         factor: lift over weight, constant or a table over time (s), e.g. `decaying`.
         shares: of each node before the trim; default equal.
@@ -105,7 +105,7 @@ def decaying(
 def aircraft_mass_center(
     body: ModalBody, gears: Sequence[LandingGear]
 ) -> tuple[float, Float64]:
-    """Mass (kg) and centre of gravity (3,) in B (m) with all gears, extended."""
+    """Mass (kg) and center of gravity (3,) in B (m) with all gears, extended."""
     points = [point for gear in gears for point in mass_points(gear)]
     return mass_center([(body.mass, body.p_BG), *points])
 
@@ -129,7 +129,7 @@ def AddLift(
 
     Raises:
         ValueError: a node is not one of the body's, or the nodes do not surround the
-            centre of gravity.
+            center of gravity.
     """
     mass, center = aircraft_mass_center(body, gears)
     rows = body.rows(lift.nodes)

@@ -19,7 +19,7 @@ from drake_landing.case.runway import (
     WaveTrain,
 )
 from drake_landing.case.scenario import Scenario
-from drake_landing.gears.bodies import wheel_centres
+from drake_landing.gears.bodies import wheel_centers
 from drake_landing.gears.data import LandingGear
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
 from drake_landing.landing.equilibrium import (
@@ -73,7 +73,7 @@ def make_scenario_diagram(
         raise InputError(
             f"scenario.braking: found {scenario.braking:g}, but no gear has a brake"
         )
-    ahead = min(p[0] for gear in gears for p in wheel_centres(gear).values())
+    ahead = min(p[0] for gear in gears for p in wheel_centers(gear).values())
     runway = runway_of(scenario.runway, origin=(ahead - body.p_BG[0], 0.0))
     _require_rollable(runway, gears, scenario.runway.profile)
     return MakeLandingDiagram(

@@ -1,6 +1,6 @@
 """Parts of an airframe that nobody has named: what branches off when planes cut it.
 
-Planes march outward from the centre of gravity, aft, fore, to both sides, up and down.
+Planes march outward from the center of gravity, aft, fore, to both sides, up and down.
 What lies beyond a plane falls into connected pieces; going inward these grow and
 merge, and the piece that reaches farthest gives its name to both. A piece is a part of
 its own as long as it stands out: at least half as long, beyond the plane, as it is
@@ -34,7 +34,7 @@ _TURNED = 3  # intervals between tried cuts
 _SHORT = 0.02  # of the size of the airframe: shorter ones are no parts
 _INNER, _OUTER = 0.02, 0.92  # first and last cut, of the length of a part
 _LEAST = 1e-3  # of the mass: lighter pieces are no parts, unless they are loaded
-_CENTRED, _BESIDE = 0.5, 1.0  # length over width
+_CENTERED, _BESIDE = 0.5, 1.0  # length over width
 _SAME = 0.9  # of the mass: parts that share so much are one
 
 
@@ -302,4 +302,4 @@ class _Finder:
         middle = float(self.cutter.structure.rigid_mass.center @ self.R_AB[1])
         beside = y.min() > middle or y.max() < middle
         lateral = abs(float(d @ self.R_AB[1])) > 0.5
-        return length >= (_BESIDE if beside and not lateral else _CENTRED) * width
+        return length >= (_BESIDE if beside and not lateral else _CENTERED) * width

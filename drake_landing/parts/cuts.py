@@ -115,7 +115,7 @@ class Cutter:
 
     @cached_property
     def elements(self) -> list[Stretched]:
-        """Elements under a stretch, for the centres of sections."""
+        """Elements under a stretch, for the centers of sections."""
         return stretched(self.structure)
 
     @cached_property

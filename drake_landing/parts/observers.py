@@ -281,13 +281,13 @@ class PartsWatch:
 
 
 def _everything(structure: Structure) -> Beam:
-    """The whole airframe as one part, about its centre of gravity."""
+    """The whole airframe as one part, about its center of gravity."""
     p = structure.points.xyz
     station = float(p[:, 0].min()) - 1.0
-    centre = structure.rigid_mass.center.copy()
+    center = structure.rigid_mass.center.copy()
     return Beam(
         name="airframe",
         outward="aft",
         stations=np.array([station]),
-        line=centre[None],
+        line=center[None],
     )

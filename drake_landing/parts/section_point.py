@@ -1,4 +1,4 @@
-"""Where the loads of a section refer to: the EA-weighted centre of what is cut.
+"""Where the loads of a section refer to: the EA-weighted center of what is cut.
 
 All elements are stretched alike along the outward direction d,
 
@@ -90,7 +90,7 @@ class Crossing:
     """What crosses a cut.
 
     Attributes:
-        point: (3,) EA-weighted centre, B; the middle of what crosses where that has no
+        point: (3,) EA-weighted center, B; the middle of what crosses where that has no
             stiffness of its own (rigid elements, constraints).
         id: (e,) elements with stiffness that cross.
         stiffness: (e,) force over strain along the normal, N.
@@ -143,7 +143,7 @@ def crossing(
     direction: Float64,
     station: float,
 ) -> Crossing:
-    """Elements that cross a cut, and the centre of their stiffness.
+    """Elements that cross a cut, and the center of their stiffness.
 
     Args:
         links: of the model.

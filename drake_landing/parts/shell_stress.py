@@ -93,12 +93,12 @@ def _strength_measures(
     count = len(groups[0][1])
     ply = linear.reshape(*linear.shape[:-1], count, -1, 5)
     xx, yy, xy = np.moveaxis(ply[..., :3], -1, 0)
-    centre, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+    center, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
     equivalent = np.zeros(ply.shape[:-2])
     for limit, those in groups:
         of_one = limit.use(ply[..., those, :, :]) * limit.reference[1]
         equivalent[..., those] = of_one
-    high, low = (centre + radius).max(axis=-1), (centre - radius).min(axis=-1)
+    high, low = (center + radius).max(axis=-1), (center - radius).min(axis=-1)
     return np.stack([equivalent, high, low], axis=-1)
 
 
@@ -175,9 +175,9 @@ def _plane_measures(linear: Float64, isotropic: npt.NDArray[np.bool_]) -> Float6
     """Measures from xx yy xy of the points of each element."""
     shape = (*linear.shape[:-1], len(isotropic), -1, 3)
     xx, yy, xy = np.moveaxis(linear.reshape(shape), -1, 0)
-    centre, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
-    high = (centre + radius).max(axis=-1)
-    low = (centre - radius).min(axis=-1)
+    center, radius = 0.5 * (xx + yy), np.hypot(0.5 * (xx - yy), xy)
+    high = (center + radius).max(axis=-1)
+    low = (center - radius).min(axis=-1)
     equivalent = plane_von_mises(xx, yy, xy).max(axis=-1)
     if not isotropic.all():
         equivalent = np.where(

@@ -10,7 +10,7 @@
     bars        largest magnitude of the direct stress at the stress points, or axial;
                 where no stress points are given the axial stress is not the worst of a
                 bar that bends: `axial_only`
-    solids      von Mises at the centre
+    solids      von Mises at the center
 
 Largest and smallest are the principal or direct stresses. All of it is a sparse matrix
 on displacements of the g-set, then a few array operations; during a transient a kernel

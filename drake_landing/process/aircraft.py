@@ -199,7 +199,7 @@ def _with_lift_nodes(scenario: Scenario, wing: tuple[int, ...] = ()) -> Scenario
     if not wing:
         raise InputError(
             "scenario.lift.nodes: found none, expected the grids of the deck that "
-            "carry the lift, round the centre of gravity"
+            "carry the lift, round the center of gravity"
         )
     return scenario.model_copy(update={"lift": lift.model_copy(update={"nodes": wing})})
 

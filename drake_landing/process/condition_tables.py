@@ -63,7 +63,7 @@ def gear_table(balances: list[RigidBalance]) -> pd.DataFrame:
 def place_table(
     ground: OnGround, gears: Sequence[LandingGear], R_AB: Float64
 ) -> pd.DataFrame:
-    """Axle and ground point of each gear in each pose, from the centre of gravity, G.
+    """Axle and ground point of each gear in each pose, from the center of gravity, G.
 
     Args:
         ground: the aircraft.

@@ -199,7 +199,7 @@ def _airframe(
     yield _line(
         "airframe",
         f"{name}: {len(structure.points.grid_id)} grids, {structure.size} free "
-        f"freedoms, {structure.rigid_mass.total:,.1f} kg, centre of gravity at "
+        f"freedoms, {structure.rigid_mass.total:,.1f} kg, center of gravity at "
         f"{x:z.3f}, {y:z.3f}, {z:z.3f} m",
     )
     yield _line(
@@ -291,7 +291,7 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
     sinks = f", sink energy {energy / 1e3:.1f} kJ" * (s.start == "touchdown")
     whole = loaded(structure, aircraft.gears)
     x, y, z = whole.center
-    with_gears = f"centre of gravity with gears at {x:z.3f}, {y:z.3f}, {z:z.3f} m"
+    with_gears = f"center of gravity with gears at {x:z.3f}, {y:z.3f}, {z:z.3f} m"
     if case.airframe.mac is not None:
         R_AB = rotation_AB(case.airframe.axes)
         share = case.airframe.mac.percent(whole.center, R_AB)
@@ -301,7 +301,7 @@ def _scenario(case: Case, aircraft: Aircraft, structure: Structure) -> Iterator[
         " / ".join(f"{v:,.0f}" for v in np.diag(inertia))
         for inertia in (whole.inertia, structure.rigid_mass.inertia)
     )
-    about = "about x / y / z through the own centre of gravity"
+    about = "about x / y / z through the own center of gravity"
     yield _line("", f"inertia {with_gears} kg m², without gears {without}, {about}")
 
 

@@ -265,7 +265,7 @@ def _lines(
     name = "".join(c if c.isalnum() else "_" for c in deck.stem.lower()).strip("_")
     x, y, z = _in_B(a, a.cg)
     yield f"# A landing of {deck.name}: {a.mass:,.0f} kg without gears, its"
-    yield f"# centre of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m. All is SI,"
+    yield f"# center of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m. All is SI,"
     yield "# in the frame of the deck. Replace or confirm what is marked GUESS."
     yield "# Next: drake-landing check on this file says what fits and what does not;"
     yield "# docs/gears.md describes gears, docs/conditions.md the conditions of CS-25."
@@ -298,10 +298,10 @@ def _lines(
 
 
 def _points(a: _Layout) -> dict[str, int]:
-    """Point -> row: extremities and the grid next to the centre of gravity."""
+    """Point -> row: extremities and the grid next to the center of gravity."""
     found = {
         "nose": int(a.p[:, 0].argmin()),
-        "centre": a.nearest(a.cg)[0],
+        "center": a.nearest(a.cg)[0],
         "tail": int(a.p[:, 0].argmax()),
         "tip_starboard": int(a.p[:, 1].argmax()),
         "tip_port": int(a.p[:, 1].argmin()),
@@ -313,7 +313,7 @@ def _points(a: _Layout) -> dict[str, int]:
 
 
 def _gears(a: _Layout) -> Iterator[str]:
-    """Nose gear ahead of, main gears a little behind the centre of gravity."""
+    """Nose gear ahead of, main gears a little behind the center of gravity."""
     length = float(np.ptp(a.p[:, 0]))
     half = float(a.p[:, 1].max())
     nose_x = a.cg[0] - min(0.35 * length, 0.8 * (a.cg[0] - a.p[:, 0].min()))

@@ -1,6 +1,6 @@
 """What an analyst wants to know of a reduced model before trusting it.
 
-Mass, centre and inertia against the full model; six rigid-body modes at zero; forces
+Mass, center and inertia against the full model; six rigid-body modes at zero; forces
 that a rigid motion meets (grounding); frequencies and shapes against the full model;
 how much mass the generalised coordinates carry.
 """
@@ -34,7 +34,7 @@ class ReductionChecks:
     """Checks of a reduction.
 
     Attributes:
-        mass: quantity, full, reduced, difference (of the full; centre in m).
+        mass: quantity, full, reduced, difference (of the full; center in m).
         rigid: direction, frequency in Hz that K gives the rigid motion, grounding:
             largest force or moment that a unit motion meets over the largest term
             of K of that kind, effective mass of the generalised coordinates over all.
@@ -105,14 +105,14 @@ def reduced_modes(model: ReducedModel, highest_hz: float) -> Modes:
 
 
 def _mass_table(structure: Structure, model: ReducedModel) -> pd.DataFrame:
-    centre = structure.rigid_mass.center
+    center = structure.rigid_mass.center
     full = structure.rigid_body
     whole = rigid_mass_properties(full.T @ (structure.mass @ full))
-    own = model.rigid_body(centre)
+    own = model.rigid_body(center)
     small = rigid_mass_properties(own.T @ model.mass @ own)
     rows = [("mass", whole[0], small[0])]
     for k, axis in enumerate("xyz"):
-        at = centre[k]
+        at = center[k]
         rows.append((f"centre {axis}", at + whole[1][k], at + small[1][k]))
     for i, j in ((0, 0), (1, 1), (2, 2), (0, 2)):
         name = f"inertia {'xyz'[i]}{'xyz'[j]}"

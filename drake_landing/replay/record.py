@@ -83,7 +83,7 @@ class Motion:
     Attributes:
         time: (f,) s.
         distance: (f,) how far the runway has gone by, m.
-        p: (f, 3) centre of gravity; R: (f, 3, 3) R_WA.
+        p: (f, 3) center of gravity; R: (f, 3, 3) R_WA.
         amplitudes: (f, n).
     """
 

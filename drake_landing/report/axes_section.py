@@ -62,7 +62,7 @@ def _mass_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
 
 def _inertia(inertia: np.ndarray) -> str:
     return (
-        "about that centre of gravity, axes of the deck, kg m²: "
+        "about that center of gravity, axes of the deck, kg m²: "
         + ", ".join(f"I{a}{a} {inertia[i, i]:,.0f}" for i, a in enumerate("xyz"))
         + "; products (minus the integrals) "
         + ", ".join(
@@ -75,6 +75,6 @@ def _inertia(inertia: np.ndarray) -> str:
 def _mass(mass: float, cg: np.ndarray) -> str:
     x, y, z = cg
     return (
-        f"{mass:,.1f} kg, centre of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m "
+        f"{mass:,.1f} kg, center of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m "
         "from the origin of the deck"
     )

@@ -41,7 +41,7 @@ def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
         ),
         (
             "airframe",
-            f"{result.airframe.grids} grids, {body.mass:,.0f} kg without gears, centre "
+            f"{result.airframe.grids} grids, {body.mass:,.0f} kg without gears, center "
             f"of gravity at x {x:z.3f}, y {y:z.3f}, z {z:z.3f} m of the deck",
         ),
         ("basis", case.airframe.basis),

@@ -129,10 +129,10 @@ def _points_said(found: PartsFound) -> str:
     lines = [name for name, cuts in found.cuts.items() if cuts.beam.line is not None]
     if len(lines) == len(found.cuts):
         return "where the part's reference line meets the cut"
-    centre = "the EA-weighted centre of the elements that are cut"
+    center = "the EA-weighted center of the elements that are cut"
     if not lines:
-        return centre
-    return f"{centre}; of {', '.join(lines)} where its reference line meets the cut"
+        return center
+    return f"{center}; of {', '.join(lines)} where its reference line meets the cut"
 
 
 def _section_table(

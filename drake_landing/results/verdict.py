@@ -41,7 +41,7 @@ def _landed(result: "ProcessResult") -> str:
     scenario = result.aircraft.scenario
     return (
         f"load case '{result.case.name}': {scenario.story}; {scenario.lift_story}; "
-        f"{whole.mass:,.0f} kg with gears, centre of gravity at x {x:z.3f}, y "
+        f"{whole.mass:,.0f} kg with gears, center of gravity at x {x:z.3f}, y "
         f"{y:z.3f}, z {z:z.3f} m of the deck"
     )
 

@@ -1,4 +1,4 @@
-"""Mass, centre of gravity and inertia of the aircraft with its gears, extended."""
+"""Mass, center of gravity and inertia of the aircraft with its gears, extended."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drake_landing.case.axes import gear_in_A
-from drake_landing.gears.bodies import wheel_centres
+from drake_landing.gears.bodies import wheel_centers
 from drake_landing.gears.data import LandingGear
 from fem.arrays import Float64
 
@@ -22,7 +22,7 @@ class WholeMass:
     Attributes:
         mass: kg.
         cg: (3,) m, axes B of the deck, from its origin.
-        inertia: (3, 3) kg m² about the centre of gravity, axes B: off-diagonal terms
+        inertia: (3, 3) kg m² about the center of gravity, axes B: off-diagonal terms
             are - ∫ x y dm.
     """
 
@@ -43,12 +43,12 @@ def whole_mass(airframe: "AirframeModel", gears: tuple[LandingGear, ...]) -> Who
     for gear in gears:
         parts += _parts(gear_in_A(gear, R_AB))
     mass = sum(m for m, _, _ in parts)
-    centre = sum((m * p for m, p, _ in parts), np.zeros(3)) / mass
+    center = sum((m * p for m, p, _ in parts), np.zeros(3)) / mass
     inertia = np.zeros((3, 3))
     for m, p, own in parts:
-        r = p - centre
+        r = p - center
         inertia += own + m * (r @ r * np.eye(3) - np.outer(r, r))
-    return WholeMass(mass=mass, cg=R_AB.T @ centre, inertia=R_AB.T @ inertia @ R_AB)
+    return WholeMass(mass=mass, cg=R_AB.T @ center, inertia=R_AB.T @ inertia @ R_AB)
 
 
 def _parts(gear: LandingGear) -> Iterator[tuple[float, Float64, Float64]]:
@@ -57,5 +57,5 @@ def _parts(gear: LandingGear) -> Iterator[tuple[float, Float64, Float64]]:
         yield part.mass, np.array(part.cg), np.diag(part.inertia)
     wheel = gear.wheel
     across = wheel.transverse
-    for place in wheel_centres(gear).values():
+    for place in wheel_centers(gear).values():
         yield wheel.mass, place, np.diag([across, wheel.spin_inertia, across])

@@ -49,11 +49,11 @@ def write_viewer(
 
 def viewer_data(title: str, mesh: DrawnMesh, modes: ShownModes | None) -> dict:
     """What the page's program gets, ready for JSON."""
-    centre = 0.5 * (mesh.p.min(axis=0) + mesh.p.max(axis=0))
+    center = 0.5 * (mesh.p.min(axis=0) + mesh.p.max(axis=0))
     return {
         "title": title,
         "size": float(np.ptp(mesh.p, axis=0).max()),
-        "p": _text((mesh.p - centre).astype("<f4")),
+        "p": _text((mesh.p - center).astype("<f4")),
         "components": [
             {
                 "name": component.name,

@@ -2,7 +2,7 @@
 
 The section is cut into nine-node quadrilaterals. Torsion is Saint-Venant's warping
 problem, shear the Poisson problem of a bar bent by a transverse force with
-Poisson's ratio 0; the shear centre is Trefftz's. See W. D. Pilkey, Analysis and Design
+Poisson's ratio 0; the shear center is Trefftz's. See W. D. Pilkey, Analysis and Design
 of Elastic Beams, chapters 5 and 6.
 
 Coordinates (y, z): y along axis 1 of the element, z along axis 2.
@@ -29,7 +29,7 @@ class SectionConstants:
         j: Saint-Venant torsion constant.
         k1, k2: shear factors, shear stiffness K A G in planes 1 and 2.
         centroid: (2,) y, z in the coordinates of the mesh.
-        shear_centre: (2,) y, z relative to the centroid.
+        shear_center: (2,) y, z relative to the centroid.
     """
 
     area: float
@@ -40,7 +40,7 @@ class SectionConstants:
     k1: float
     k2: float
     centroid: Float64
-    shear_centre: Float64
+    shear_center: Float64
 
 
 def analyse(quads: Float64) -> SectionConstants:
@@ -64,8 +64,8 @@ def analyse(quads: Float64) -> SectionConstants:
     omega -= (weight * omega).sum() / area
     moments = np.array([(weight * omega * y).sum(), (weight * omega * z).sum()])
     z_s, y_s = np.linalg.solve([[i1, -i12], [i12, -i2]], moments)
-    shear_centre = np.array([y_s, z_s])
-    shear_centre[abs(shear_centre) < 1e-9 * np.sqrt((i1 + i2) / area)] = 0.0
+    shear_center = np.array([y_s, z_s])
+    shear_center[abs(shear_center) < 1e-9 * np.sqrt((i1 + i2) / area)] = 0.0
 
     determinant = i1 * i2 - i12 * i12
     factors = []
@@ -81,7 +81,7 @@ def analyse(quads: Float64) -> SectionConstants:
         k1=float(factors[0]),
         k2=float(factors[1]),
         centroid=centroid,
-        shear_centre=shear_centre,
+        shear_center=shear_center,
     )
 
 

@@ -25,7 +25,7 @@ class Section:
     """A cross-section.
 
     Attributes:
-        constants: area, inertias, torsion, shear, centroid and shear centre.
+        constants: area, inertias, torsion, shear, centroid and shear center.
         stress_points: (4, 2) y, z of C, D, E, F relative to the centroid.
     """
 
@@ -103,7 +103,7 @@ def _round(kind: str, dims: tuple[float, ...]) -> Section:
         k1=ROUND[kind],
         k2=ROUND[kind],
         centroid=np.zeros(2),
-        shear_centre=np.zeros(2),
+        shear_center=np.zeros(2),
     )
     points = outer * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
     return Section(constants=constants, stress_points=points)

@@ -79,7 +79,7 @@ class Detail:
     stations: bool = False
 
 
-CENTRE = Detail()
+CENTER = Detail()
 
 
 class ElementBlock(Protocol):
@@ -135,11 +135,11 @@ class ElementBlock(Protocol):
         """Element strains, None where Nastran prints none."""
         ...
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+    def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
         """Forces, stresses, strains or failure indices in the detail asked for."""
         ...
 
-    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTER) -> Float64 | None:
         """(e, c_linear, n) linear quantities from forces upon the element's freedoms.
 
         None where no load can act on the element between its grids (PLOAD1).

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from fem.arrays import Float64, Int64
-from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.block import CENTER, Detail, Kind, Recovery
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -76,7 +76,7 @@ class DenseBlock:
         """None: no element strains."""
         return None
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+    def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
         """`forces`, `stresses` or `strains`; most elements know one detail only."""
         if kind == "failure":
             return None
@@ -84,7 +84,7 @@ class DenseBlock:
             return self.forces()
         return self.stresses() if kind == "stress" else self.strains()
 
-    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTER) -> Float64 | None:
         """None: loads act at the grids only."""
         return None
 

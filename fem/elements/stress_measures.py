@@ -7,10 +7,10 @@ from fem.arrays import Float64
 
 def plane_columns(xx: Float64, yy: Float64, xy: Float64) -> tuple[Float64, ...]:
     """Angle (deg, from x to the major axis), major, minor of plane stress."""
-    centre, half = 0.5 * (xx + yy), 0.5 * (xx - yy)
+    center, half = 0.5 * (xx + yy), 0.5 * (xx - yy)
     radius = np.hypot(half, xy)
     angle = 0.5 * np.degrees(np.arctan2(xy, half))
-    return angle, centre + radius, centre - radius
+    return angle, center + radius, center - radius
 
 
 def plane_von_mises(xx: Float64, yy: Float64, xy: Float64) -> Float64:

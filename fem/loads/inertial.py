@@ -54,8 +54,8 @@ def _rotation(points: Points, row: pd.Series) -> Float64:
     w = 2 pi A R and a = 2 pi RACC R about G: -w x (w x r) + a x r.
     """
     grid = int(row["g"])
-    centre = points.xyz[points.rows(grid)] if grid else np.zeros(3)
-    r = points.xyz - centre
+    center = points.xyz[points.rows(grid)] if grid else np.zeros(3)
+    r = points.xyz - center
     spin, turning = _about_axis(points, row, "a"), _about_axis(points, row, "racc")
     linear = np.cross(turning, r) - np.cross(spin, np.cross(spin, r))
     return _field(points, linear, turning)

@@ -151,8 +151,8 @@ def _add_shells(
     corners, middles = grids[:, :n], np.zeros((len(grids), n), np.int64)
     middles[:, : grids.shape[1] - n] = grids[:, n : 2 * n]
     pressure = loads[[f"p{k + 1}" for k in range(n)]].to_numpy(np.float64)
-    centre = points.xyz[points.rows(corners)].mean(axis=1)
-    found.add(corners, middles, pressure, _directions(loads, points, centre))
+    center = points.xyz[points.rows(corners)].mean(axis=1)
+    found.add(corners, middles, pressure, _directions(loads, points, center))
 
 
 def _directions(loads: pd.DataFrame, points: Points, at: Float64) -> Float64:
@@ -184,8 +184,8 @@ def _add_solids(
 ) -> None:
     shape = solids.shape
     nodes_of = grids_of(solids.rows, shape)
-    centres = points.xyz[points.rows(nodes_of[:, : shape.corners])].mean(axis=1)
-    directions = _directions(loads, points, centres)
+    centers = points.xyz[points.rows(nodes_of[:, : shape.corners])].mean(axis=1)
+    directions = _directions(loads, points, centers)
     given = loads[["g1", "g34"]].to_numpy(np.int64)
     pressures = loads[["p1", "p2", "p3", "p4"]].to_numpy(np.float64)
     for k, nodes in enumerate(nodes_of):
@@ -197,7 +197,7 @@ def _add_solids(
                 f"of {solids.card} {row['eid']}"
             )
             continue
-        face = _inward(face, nodes, int(given[k, 0]), centres[k], points)
+        face = _inward(face, nodes, int(given[k, 0]), centers[k], points)
         middles = [
             _middle(shape, nodes, a, b) for a, b in zip(face, face[1:] + face[:1])
         ]
@@ -235,12 +235,12 @@ def _next_to(a: int, b: int) -> bool:
 
 
 def _inward(
-    face: tuple[int, ...], nodes: Int64, g1: int, centre: Float64, points: Points
+    face: tuple[int, ...], nodes: Int64, g1: int, center: Float64, points: Points
 ) -> tuple[int, ...]:
     """The face from G1 on, in the sense whose normal points into the element."""
     xyz = points.xyz[points.rows(nodes[list(face)])]
     normal = np.cross(xyz[1] - xyz[0], xyz[2] - xyz[0])
-    if normal @ (centre - xyz.mean(axis=0)) < 0.0:
+    if normal @ (center - xyz.mean(axis=0)) < 0.0:
         face = face[::-1]
     first = [int(nodes[k]) for k in face].index(g1)
     return face[first:] + face[:first]

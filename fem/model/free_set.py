@@ -132,7 +132,7 @@ class FreeSet:
 
     @cached_property
     def rigid_body(self) -> Float64:
-        """(f, 6) motions of the free set as a rigid body about the centre of gravity.
+        """(f, 6) motions of the free set as a rigid body about the center of gravity.
 
         Motions that constraints prevent cost energy; `normal_modes` sorts them out.
         """

@@ -161,7 +161,7 @@ class Model:
 
     @cached_property
     def rigid_mass(self) -> Weight:
-        """Mass, centre of gravity and inertia that the dynamics have.
+        """Mass, center of gravity and inertia that the dynamics have.
 
         As `weight`, but about the origin and with PARAM WTMASS in it: what a deck that
         gives weights moves like.

@@ -1,8 +1,8 @@
-"""Grid point weight generator: rigid-body mass, centre of gravity, inertia.
+"""Grid point weight generator: rigid-body mass, center of gravity, inertia.
 
 MO is the mass matrix of the model moving as a rigid body about the reference point.
 Where the mass differs by direction (scalar masses), S turns into the axes of its
-translational part, and each axis has its own centre of gravity, as Nastran's table
+translational part, and each axis has its own center of gravity, as Nastran's table
 shows it.
 """
 
@@ -25,9 +25,9 @@ class Weight:
         MO: (6, 6) rigid-body mass about it.
         S: (3, 3) columns are the principal mass axes.
         mass: (3,) along the axes of S.
-        cg: (3, 3) row i: centre of gravity for the mass of axis i, from the reference,
+        cg: (3, 3) row i: center of gravity for the mass of axis i, from the reference,
             axes of S.
-        IS: (3, 3) inertia tensor about the centre of gravity, axes of S; off-diagonal
+        IS: (3, 3) inertia tensor about the center of gravity, axes of S; off-diagonal
             terms have Nastran's sign, + ∫ x y dm.
         IQ: (3,) principal moments.
         Q: (3, 3) columns are the principal directions, axes of S.
@@ -49,13 +49,13 @@ class Weight:
 
     @property
     def center(self) -> Float64:
-        """(3,) centre of gravity, basic coordinates."""
+        """(3,) center of gravity, basic coordinates."""
         x = np.array([self.cg[1, 0], self.cg[0, 1], self.cg[0, 2]])
         return self.reference + self.S @ x
 
     @property
     def inertia(self) -> Float64:
-        """(3, 3) tensor about the centre of gravity, basic axes, products negative."""
+        """(3, 3) tensor about the center of gravity, basic axes, products negative."""
         tensor = 2.0 * np.diag(np.diag(self.IS)) - self.IS
         return self.S @ tensor @ self.S.T
 
@@ -120,26 +120,26 @@ def weigh(
 
 
 def rigid_mass_properties(mass: Float64) -> tuple[float, Float64, Float64]:
-    """Mass, centre (3,) and inertia about it (3, 3) from a rigid mass matrix (6, 6).
+    """Mass, center (3,) and inertia about it (3, 3) from a rigid mass matrix (6, 6).
 
-    The centre is relative to the point that the motions turn about.
+    The center is relative to the point that the motions turn about.
     """
     total = float(np.trace(mass[:3, :3])) / 3
     moment = mass[3:, :3] / total
-    centre = 0.5 * np.array(
+    center = 0.5 * np.array(
         [
             moment[2, 1] - moment[1, 2],
             moment[0, 2] - moment[2, 0],
             moment[1, 0] - moment[0, 1],
         ]
     )
-    inertia = mass[3:, 3:] - total * (centre @ centre * np.eye(3))
-    inertia += total * np.outer(centre, centre)
-    return total, centre, 0.5 * (inertia + inertia.T)
+    inertia = mass[3:, 3:] - total * (center @ center * np.eye(3))
+    inertia += total * np.outer(center, center)
+    return total, center, 0.5 * (inertia + inertia.T)
 
 
 def _centers(m: Float64, mtr: Float64) -> Float64:
-    """(3, 3) row i: centre for mass i; the coordinate along i comes from Mtr_ii."""
+    """(3, 3) row i: center for mass i; the coordinate along i comes from Mtr_ii."""
     safe = np.where(m != 0.0, m, np.inf)
     return (
         np.array(
@@ -154,7 +154,7 @@ def _centers(m: Float64, mtr: Float64) -> Float64:
 
 
 def _about_center(m: Float64, cg: Float64, mr: Float64) -> Float64:
-    """(3, 3) moments of inertia and, off the diagonal, + ∫ x y dm about the centre."""
+    """(3, 3) moments of inertia and, off the diagonal, + ∫ x y dm about the center."""
     (mx, my, mz) = m
     inertia = np.empty((3, 3))
     inertia[0, 0] = mr[0, 0] - my * cg[1, 2] ** 2 - mz * cg[2, 1] ** 2

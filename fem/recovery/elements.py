@@ -18,7 +18,7 @@ import scipy.sparse as sp
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Float64, Int64
 from fem.deck.control.case_sets import Selection
-from fem.elements.block import CENTRE, Detail, ElementBlock, Kind, Recovery
+from fem.elements.block import CENTER, Detail, ElementBlock, Kind, Recovery
 from fem.elements.lines.beam_stations import StationRecovery
 from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads
@@ -144,7 +144,7 @@ def element_tables(
     kind: Kind,
     selection: Selection = "ALL",
     *,
-    detail: Detail = CENTRE,
+    detail: Detail = CENTER,
     loads: ElementLoads | None = None,
     moving: bool = False,
     free: FreeMotions | None = None,

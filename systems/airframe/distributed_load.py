@@ -2,7 +2,7 @@
 
 The force L(t) points in a fixed direction of the world; node i takes the share w_i of
 it. Since all shares are parallel, only their sums act: with c = Σ w_i (r_i + φ_i η)
-from the centre of gravity and Φ = Σ w_i φ_i,
+from the center of gravity and Φ = Σ w_i φ_i,
 
     force L, moment c × L_B about G, modal forces Φᵀ L_B.
 

@@ -75,7 +75,7 @@ class FlexibleAirframe(LeafSystem):
         monitor_nodes: grid ids to watch.
         gravity: acceleration, m/s²; numeric parameter. 0, the default, stands for lift
             equal to weight.
-        height: of the centre of gravity in the default state, m.
+        height: of the center of gravity in the default state, m.
 
     Raises:
         ValueError: a node is not one of the body's.
@@ -207,9 +207,9 @@ class FlexibleAirframe(LeafSystem):
 
         Args:
             context: of this system.
-            p_WG: (3,) position of the centre of gravity, m.
+            p_WG: (3,) position of the center of gravity, m.
             quaternion: (4,) of R_WB, scalar first.
-            v_WG: (3,) velocity of the centre of gravity in W, m/s.
+            v_WG: (3,) velocity of the center of gravity in W, m/s.
             w_B: (3,) angular velocity in B, rad/s.
             modal_amplitudes: (n,) in the amplitudes of the ModalBody; default zero.
             modal_rates: (n,) their rates, 1/s.

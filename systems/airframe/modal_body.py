@@ -20,8 +20,8 @@ class ModalBody:
 
     Attributes:
         mass: kg.
-        p_BG: (3,) centre of gravity in B, m.
-        inertia_G: (3, 3) moment of inertia about the centre of gravity, B axes, kg m².
+        p_BG: (3,) center of gravity in B, m.
+        inertia_G: (3, 3) moment of inertia about the center of gravity, B axes, kg m².
         frequency: (n,) natural frequencies of the elastic modes, Hz, ascending.
         modal_mass: (n,) kg (kg m² for a rotation-normalised mode).
         modal_damping: (n, n) projection of the viscous damping matrix, kg/s.

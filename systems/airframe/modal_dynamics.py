@@ -1,6 +1,6 @@
 """Equations of motion of a flexible body in mean axes.
 
-The floating frame B has its origin at the centre of gravity G of the body and turns
+The floating frame B has its origin at the center of gravity G of the body and turns
 with its mean axes, to which the elastic modes are orthogonal:
 
     m a_G = F - m g e_z,    I ω' + ω × I ω = M_G,

@@ -1,6 +1,6 @@
 """Kinematics of nodes of a flexible body: motion of its floating frame plus modes.
 
-Node N lies at r = r_0 + φ_t η from the centre of gravity G, in the axes of the floating
+Node N lies at r = r_0 + φ_t η from the center of gravity G, in the axes of the floating
 frame B, and is turned against B by the rotation vector θ = φ_r η. Hence, with J_l the
 left Jacobian of θ,
 
@@ -52,7 +52,7 @@ class Nodes:
     """Some nodes of a flexible body, in scaled modal coordinates.
 
     Attributes:
-        p_GN: (k, 3) undeformed positions from the centre of gravity, B axes, m.
+        p_GN: (k, 3) undeformed positions from the center of gravity, B axes, m.
         shape: (6 k, n) scaled modes, per node [rotation; translation], B axes.
         compliance: (6 k, 6 k) shape m⁻¹ shapeᵀ, accelerations per wrench through the
             modes alone, B axes.

@@ -27,7 +27,7 @@ def GearForces_(T):
 
         | port | size | unit | frame and sign |
         |---|---|---|---|
-        | in `wrench` | 6 k | N m, N | [torque; force] on each wheel, centre, W |
+        | in `wrench` | 6 k | N m, N | [torque; force] on each wheel, center, W |
         | in `strut_force` | s | N | along each strut, positive apart |
         | in `ratio_<gear>` (for lever struts) | 1 | m/rad | stroke over angle |
         | in `pitch_<gear>` (for bogies) | 1 | N m | torque on the beam about its joint;

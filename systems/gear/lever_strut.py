@@ -98,7 +98,7 @@ class LeverGeometry:
         """Checks that the arm gives this stroke (m) with some lever arm left.
 
         Raises:
-            ValueError: it does not, or the joint passes a dead centre on the way.
+            ValueError: it does not, or the joint passes a dead center on the way.
         """
         end = self.angle(stroke)
         ratios = [abs(self.ratio(end * i / 20)) for i in range(21)]

@@ -39,11 +39,11 @@ def WheelKinematics_(T):
         | port | size | unit | frame and sign |
         |---|---|---|---|
         | in `plant_state` | nq + nv | | positions and velocities of the plant |
-        | out `wheels` | 12 k | m, -, m/s, rad/s | of each wheel p_WC of its centre,
+        | out `wheels` | 12 k | m, -, m/s, rad/s | of each wheel p_WC of its center,
           axle direction (y axis of the wheel body), v_WC, ω_WH of the wheel body; W |
         | out `wheel_<name>` | 12 | | the same of one |
         | out `wheel_jacobian` | 6 k nv | | [angular; linear] velocity of each wheel
-          body at its centre, W, per velocity of the plant, by rows |
+          body at its center, W, per velocity of the plant, by rows |
         | out `struts` | 2 s | m, m/s | stroke, rate of each; positive in compression |
         | out `strut_<name>` | 2 | | the same of one |
         | out `strut_axes` | 3 s | | direction of compression of each, W |
@@ -57,7 +57,7 @@ def WheelKinematics_(T):
 
         Args:
             plant: finalised, continuous.
-            wheels: port name to wheel body, whose origin is the wheel centre.
+            wheels: port name to wheel body, whose origin is the wheel center.
             struts: port name to strut joint, whose translation is the stroke, or to
                 the shock absorber of an arm.
             spins: port name to spin joint of each wheel whose spin is wanted.

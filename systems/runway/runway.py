@@ -3,7 +3,7 @@
 A profile (`runway_profile`) gives height over the distance d along the runway
 (`direction`, default -x, from `origin`); with a second one, `right`, the first is that
 of the left track, and between the tracks one goes over into the other. A crown falls to
-either side of the centre line. The tire touches it at the nearest point in
+either side of the center line. The tire touches it at the nearest point in
 the plane of the wheel: then the radial deflection has the surface normal as its
 gradient, and the contact force of an elastic tire is conservative over any profile.
 """
@@ -34,9 +34,9 @@ class Runway:
         friction_factor: factor on the tires' friction in place of the surface's.
         right: heights of the right track; None: `profile` is as wide as the runway.
         track_spacing: m, between left and right track.
-        crown: fall over distance from the centre line, to either side.
+        crown: fall over distance from the center line, to either side.
         direction: horizontal direction of increasing distance, W; default -x.
-        origin: point of the centre line at zero distance, W, m.
+        origin: point of the center line at zero distance, W, m.
     """
 
     profile: Profile | None = None
@@ -97,7 +97,7 @@ class Runway:
         return 0.0 if self.flat else self._shape(*self._along_and_across(x, y))[0]
 
     def _along_and_across(self, x: Scalar, y: Scalar) -> tuple[Scalar, Scalar]:
-        """Distance, and offset from the centre line to the right of it, m."""
+        """Distance, and offset from the center line to the right of it, m."""
         (ux, uy), dx, dy = self.direction, x - self.origin[0], y - self.origin[1]
         return dx * ux + dy * uy, dx * uy - dy * ux
 
@@ -131,10 +131,10 @@ class Runway:
     def nearest(
         self, px: Scalar, py: Scalar, pz: Scalar, ax: Scalar, ay: Scalar, az: Scalar
     ) -> tuple[Scalar, Scalar, Scalar, Scalar]:
-        """Distance of a wheel's centre from the ground in the wheel's plane.
+        """Distance of a wheel's center from the ground in the wheel's plane.
 
         Args:
-            px, py, pz: m, centre of the wheel, W.
+            px, py, pz: m, center of the wheel, W.
             ax, ay, az: unit vector along the axle, W.
 
         Returns:
@@ -147,8 +147,8 @@ class Runway:
         if self.flat:
             return pz / _upright(1.0 - az * az), 0.0, 0.0, 1.0
         ux, uy = self.direction
-        d_centre, e_centre = self._along_and_across(px, py)
-        d, e = d_centre, e_centre
+        d_center, e_center = self._along_and_across(px, py)
+        d, e = d_center, e_center
         for _ in range(30):
             h, slope, across, curvature, bend = self._shape(d, e)
             nz = 1.0 / sqrt(1.0 + slope * slope + across * across)
@@ -156,14 +156,14 @@ class Runway:
             ny = -(slope * uy - across * ux) * nz
             tilt = nx * ax + ny * ay + nz * az
             cosine = _upright(1.0 - tilt * tilt)
-            # The tangent plane at (d, e), seen from the centre.
-            rise = slope * (d_centre - d) + across * (e_centre - e)
+            # The tangent plane at (d, e), seen from the center.
+            rise = slope * (d_center - d) + across * (e_center - e)
             distance = (pz - h - rise) * nz / cosine
             gx = distance / cosine * (nx - tilt * ax)
             gy = distance / cosine * (ny - tilt * ay)
             # Newton's method: the foot moves with the normal, r h'' per unit of d.
-            step = (d_centre - gx * ux - gy * uy - d) / _stretch(distance * curvature)
-            aside = (e_centre - gx * uy + gy * ux - e) / _stretch(distance * bend)
+            step = (d_center - gx * ux - gy * uy - d) / _stretch(distance * curvature)
+            aside = (e_center - gx * uy + gy * ux - e) / _stretch(distance * bend)
             d, e = d + step, e + aside
             if abs(step) < 1e-10 and abs(aside) < 1e-10:
                 break

@@ -108,8 +108,8 @@ def side_load(
     Args:
         axis: (3) of the strut, up.
         wheels: (k, 12) of each, of `WheelKinematics`.
-        wrenches: (k, 6) of each, torque at the wheel's centre, N m, and force, N.
-        offsets: of each centre along the axle, m.
+        wrenches: (k, 6) of each, torque at the wheel's center, N m, and force, N.
+        offsets: of each center along the axle, m.
         brakes: torque on each wheel, N m.
     """
     zero = 0.0 * axis[0]

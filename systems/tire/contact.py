@@ -167,7 +167,7 @@ def contact(
 
     Args:
         wheel: (12) of it.
-        r, nx, ny, nz: distance of its centre from the ground in its plane, m, and the
+        r, nx, ny, nz: distance of its center from the ground in its plane, m, and the
             surface normal there.
         slip: (2) lagged slips along t and l, or None for the algebraic law.
         factors: (3) on stiffness, damping, friction.

@@ -52,7 +52,7 @@ def Tire_(T):
         | in `wheel` | 12 n | m, -, m/s, rad/s | p_WC, axle direction (unit vector, to |
         |  |  |  | starboard at rest), v_WC, ω_WH; world frame |
         | out `wrench` | 6 n | N m, N | [torque; force] of the ground on the wheel at |
-        |  |  |  | its centre; world frame |
+        |  |  |  | its center; world frame |
         | out `contact` | 6 n | m, N, -, rad | `TireContact` |
         | out `energy` | 1 | J | stored in the radial deflection of all |
         | out `dissipated_power` | 1 | W | damping and sliding of all |

@@ -118,7 +118,7 @@ def test_transient_quadrilateral_forces(transient):
     table = op2.op2_results.force.cquad4_force[1]
     theirs = table.data[:21].astype(float)
     with h5py.File(out) as file:
-        # STRESS(BILIN): centre and corners.
+        # STRESS(BILIN): center and corners.
         ours = file["transient/1/element_force/CQUAD4/value"][:].reshape(theirs.shape)
     for columns in (slice(0, 3), slice(3, 6), slice(6, 8)):
         scale = np.abs(theirs[..., columns]).max()

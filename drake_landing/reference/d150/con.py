@@ -35,7 +35,7 @@ def build_con(model: ModelBuilder, reference: Reference, topology: str) -> None:
     Args:
         model: an empty bench.
         reference: the reference nodes.
-        topology: `1` gears on the side-of-body ribs of the centre wing box, `2` on the
+        topology: `1` gears on the side-of-body ribs of the center wing box, `2` on the
             inner wing's gear ribs.
     """
     for group in reference.values():
@@ -110,10 +110,10 @@ def tail_sections(name: str, eta: Float64) -> list[BarSection]:
 
 
 def _wing(model: ModelBuilder, reference: Reference) -> None:
-    """Tip to centre to tip in one chain; the fuselage holds two ribs."""
+    """Tip to center to tip in one chain; the fuselage holds two ribs."""
     right, left = reference["wing_right"], reference["wing_left"]
-    centre = wing_sections(np.zeros(1))
-    add_chain(model, "wing centre", [left.id_of(0), right.id_of(0)], centre, beams.UP)
+    center = wing_sections(np.zeros(1))
+    add_chain(model, "wing center", [left.id_of(0), right.id_of(0)], center, beams.UP)
     for side, _ in SIDES:
         group, tip = reference[f"wing_{side}"], reference[f"monitor_wing_tip_{side}"]
         p = np.concatenate([group.p, tip.p])
@@ -124,9 +124,9 @@ def _wing(model: ModelBuilder, reference: Reference) -> None:
 def _tailplane(model: ModelBuilder, reference: Reference) -> None:
     half = surface("tailplane")
     right, left = reference["tailplane_right"], reference["tailplane_left"]
-    centre = tail_sections("tailplane", np.zeros(1))
+    center = tail_sections("tailplane", np.zeros(1))
     add_chain(
-        model, "tailplane centre", [left.id_of(0), right.id_of(0)], centre, beams.UP
+        model, "tailplane center", [left.id_of(0), right.id_of(0)], center, beams.UP
     )
     for group in (right, left):
         y = np.abs(beams.middles(group.p)[:, 1])

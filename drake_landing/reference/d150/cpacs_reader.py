@@ -280,14 +280,14 @@ def _fuselage(fuselage: Any) -> Float64 | None:
         element = child(section, "elements/element")
         scale = _vector(section, "transformation/scaling", 1.0)
         scale = scale * _vector(element, "transformation/scaling", 1.0)
-        centre = origin + at[section.get("uID")]
-        centre = centre + _vector(section, "transformation/translation", 0.0)
-        centre = centre + _vector(element, "transformation/translation", 0.0)
+        center = origin + at[section.get("uID")]
+        center = center + _vector(section, "transformation/translation", 0.0)
+        center = center + _vector(element, "transformation/translation", 0.0)
         half_width, half_height = abs(scale[1]), abs(scale[2])
-        z = centre[2]
-        if max(*np.abs(centre), half_width, half_height) > _LARGEST:
+        z = center[2]
+        if max(*np.abs(center), half_width, half_height) > _LARGEST:
             raise ValueError(f"{place(section)} is over {_LARGEST:g} m away or wide")
-        rows.append([centre[0], 2 * half_width, z - half_height, z + half_height])
+        rows.append([center[0], 2 * half_width, z - half_height, z + half_height])
     table = np.array(sorted(rows))
     if len(table) < 2:
         return None

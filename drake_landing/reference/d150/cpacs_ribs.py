@@ -82,7 +82,7 @@ def read_ribs(structure: Any, plan: Plan) -> Float64 | None:
     ribs = np.concatenate(found)
     ribs = ribs[np.argsort(ribs[:, 0])]
     ribs = ribs[np.append(True, np.diff(ribs[:, 0]) > _SAME)]
-    # The box has stations of its own in the centre plane and at the tip.
+    # The box has stations of its own in the center plane and at the tip.
     return ribs[(ribs[:, 0] > _END) & (ribs[:, 0] < 1.0 - _END)]
 
 

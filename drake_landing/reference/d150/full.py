@@ -1,6 +1,6 @@
 """DLR-D150-FULL: lifting surfaces and fuselage as shells.
 
-The centre wing box, fin and tailplane are joined to the fuselage's shells. Reference
+The center wing box, fin and tailplane are joined to the fuselage's shells. Reference
 nodes are tied to frames and ribs, so that a reduction can keep them.
 """
 

@@ -51,7 +51,7 @@ def fuselage_sections(x: Float64) -> list[BarSection]:
 def join_wing(model: ModelBuilder, reference: Reference) -> None:
     """A rigid element from the fuselage to the side-of-body ribs.
 
-    Pinned along the fuselage: the centre box may bend between the two ribs, while the
+    Pinned along the fuselage: the center box may bend between the two ribs, while the
     fuselage holds it in pitch.
     """
     joint = [rib_node(reference, f"wing_{side}", "R04") for side, _ in SIDES]
@@ -90,7 +90,7 @@ def join_fin(model: ModelBuilder, reference: Reference) -> None:
 
 
 def add_engines(model: ModelBuilder, reference: Reference) -> None:
-    """The pylon: rigid down to the engine's centre, all its flexibility there."""
+    """The pylon: rigid down to the engine's center, all its flexibility there."""
     data = facts("engines")
     for side, _ in SIDES:
         part, engine = f"pylon_{side}", reference[f"engine_{side}"].id_of(0)
@@ -98,7 +98,7 @@ def add_engines(model: ModelBuilder, reference: Reference) -> None:
         model.section(part).comment(f"property {pid}: {part}")
         model.section(part).add("PBUSH", pid, "K", *data["pylon_stiffness"])
         rib = rib_node(reference, f"wing_{side}", data["rib"])
-        # blank orientation, CID 0, S = 1: the spring sits at the engine's centre
+        # blank orientation, CID 0, S = 1: the spring sits at the engine's center
         model.element(part, "CBUSH", pid, rib, engine, None, None, None, 0, 1.0)
 
 

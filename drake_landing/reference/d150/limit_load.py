@@ -43,7 +43,7 @@ class LimitLoad:
 
     Attributes:
         tip_deflection: of the wing tips, upward, relative to the monitoring point at
-            the centre of gravity, m.
+            the center of gravity, m.
         acceleration: (6,) of the airframe as a rigid body about its c.g.
         root_moment: bending moment about x at the side of the body, N m; `moments`
             at further stations y (m).

@@ -1,4 +1,4 @@
-"""Lumped masses as CONM2: mass, offset and inertia about the mass centre."""
+"""Lumped masses as CONM2: mass, offset and inertia about the mass center."""
 
 from drake_landing.reference.d150.masses import Lumps
 from drake_landing.reference.d150.model import ModelBuilder
@@ -9,7 +9,7 @@ def add_masses(model: ModelBuilder, lumps: Lumps) -> None:
     for component, nodes in lumps.items():
         part = f"masses {component}"
         for node, lump in sorted(nodes.items()):
-            offset, j = lump.about_centre()
+            offset, j = lump.about_center()
             # Nastran's products of inertia are the negative off-diagonal terms.
             inertia = (j[0, 0], -j[1, 0], j[1, 1], -j[2, 0], -j[2, 1], j[2, 2])
             model.element(

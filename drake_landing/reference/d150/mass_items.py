@@ -27,7 +27,7 @@ class MassItems:
     Attributes:
         component: name in the mass table.
         mass: (n,) kg.
-        p: (n, 3) centres in B, m.
+        p: (n, 3) centers in B, m.
         inertia: (n, 3) own moments of inertia along the axes of B, kg m².
     """
 
@@ -44,10 +44,10 @@ def fuselage_items(x: Float64, gears: Sequence[LandingGear]) -> MassItems:
     nose = [g for g in gears if g.name == "nose"]
     total = data["total"] - sum(g.mass for g in nose)
     moment = data["total"] * data["x_cg"] - sum(g.mass * g.fitting.cg[0] for g in nose)
-    mass, centre = _slices(stations, density, x)
-    mass = tilted(mass, centre, total, moment)
-    half, bottom, top = fuselage_section(centre).T
-    p = np.stack([centre, 0 * centre, (bottom + top) / 2 + data["z_offset"]], axis=1)
+    mass, center = _slices(stations, density, x)
+    mass = tilted(mass, center, total, moment)
+    half, bottom, top = fuselage_section(center).T
+    p = np.stack([center, 0 * center, (bottom + top) / 2 + data["z_offset"]], axis=1)
     radius = (half + (top - bottom) / 2) / 2
     return MassItems(
         component="fuselage",
@@ -64,9 +64,9 @@ def payload_items(x: Float64) -> MassItems:
     data = facts("masses")["payload"]
     start, end, kg = np.array(data["line_density"], float).T
     stations = np.stack([start, end - 1e-9], axis=1).ravel()
-    mass, centre = _slices(stations, np.repeat(kg / (end - start), 2), x)
+    mass, center = _slices(stations, np.repeat(kg / (end - start), 2), x)
     keep = mass > 0
-    p = np.stack([centre, 0 * centre, np.full(len(x), data["z"])], axis=1)
+    p = np.stack([center, 0 * center, np.full(len(x), data["z"])], axis=1)
     radii = [np.full(len(x), data[k]) for k in ("radius_roll", "radius_transverse")]
     inertia = _ring(mass, x, radii[0], radii[1])
     return MassItems(
@@ -117,12 +117,12 @@ def less(
     """The items less other bodies that are modelled by themselves.
 
     Items and bodies are cut into bins along an axis. In each bin every item gives in
-    proportion to its mass, and its centre moves so that the first moment is kept.
+    proportion to its mass, and its center moves so that the first moment is kept.
 
     Args:
         items: of one component.
         mass: (k,) of the bodies, kg.
-        p: (k, 3) their centres, m.
+        p: (k, 3) their centers, m.
         axis: coordinate along the component.
         bins: their number.
 
@@ -139,7 +139,7 @@ def less(
     new_mass, new_p = items.mass.copy(), items.p.copy()
     slope = np.polyfit(items.p[:, axis], items.p, 1)[0]
     for k, group in enumerate(groups):
-        q, centres = mass[owner == k], p[owner == k]
+        q, centers = mass[owner == k], p[owner == k]
         if not q.sum():
             continue
         share = q.sum() / items.mass[group].sum()
@@ -149,7 +149,7 @@ def less(
                 f"{along[0]:.1f} and {along[-1]:.1f} m (bin {k + 1} of {bins}), more "
                 f"than 95 % of its mass there, {items.mass[group].sum():.0f} kg"
             )
-        middle = q @ centres / q.sum()
+        middle = q @ centers / q.sum()
         taken = share * items.mass[group]
         for other in {0, 1, 2} - {axis}:
             at = middle[other] + slope[other] * (items.p[group, axis] - middle[axis])
@@ -192,7 +192,7 @@ def _movable_inertia(name: str, group: NodeGroup, mass: Float64) -> Float64:
 
 
 def _slices(stations: Float64, density: Float64, x: Float64) -> tuple[Float64, Float64]:
-    """Mass and centre of a line density in the slice of each frame."""
+    """Mass and center of a line density in the slice of each frame."""
     edges = np.concatenate([[stations[0]], (x[1:] + x[:-1]) / 2, [stations[-1]]])
     edges[0], edges[-1] = min(edges[0], x[0]), max(edges[-1], x[-1])
     fine = np.unique(

@@ -3,7 +3,7 @@
 Mass items are lumped onto reference nodes so that mass, first moment and inertia of
 each item are kept; what the finite elements weigh themselves is taken off first. The
 payload is tilted along the fuselage until airframe and landing gears together meet the
-stated mass and centre of gravity.
+stated mass and center of gravity.
 """
 
 from collections.abc import Mapping, Sequence
@@ -45,8 +45,8 @@ class NodeMass:
         self.moment = self.moment + mass * arm
         self.inertia = self.inertia + np.diag(own) + mass * _steiner(arm)
 
-    def about_centre(self) -> tuple[Float64, Float64]:
-        """Offset of the centre from the node (3,), and inertia about it (3, 3)."""
+    def about_center(self) -> tuple[Float64, Float64]:
+        """Offset of the center from the node (3,), and inertia about it (3, 3)."""
         offset = self.moment / self.mass
         return offset, self.inertia - self.mass * _steiner(offset)
 
@@ -61,8 +61,8 @@ def node_masses(
 
     Args:
         reference: the reference nodes.
-        gears: landing gears, whose mass and centre count in the closure.
-        structure: part -> mass and centre of its finite elements; the lumps and these
+        gears: landing gears, whose mass and center count in the closure.
+        structure: part -> mass and center of its finite elements; the lumps and these
             together are the airframe.
     """
     lumps: Lumps = {}
@@ -106,7 +106,7 @@ def node_masses(
 def mass_table(
     lumps: Lumps, reference: Reference, structure: Structure
 ) -> pd.DataFrame:
-    """Mass (kg) and centre (m, B) of every component, elements and lumps together."""
+    """Mass (kg) and center (m, B) of every component, elements and lumps together."""
     p = positions(reference)
     structure = by_component(structure)
     rows = []
@@ -115,8 +115,8 @@ def mass_table(
         for node, lump in lumps.get(component, {}).items():
             mass += lump.mass
             moment += lump.moment + lump.mass * p[node]
-        for m, centre in structure.get(component, ()):
-            mass, moment = mass + m, moment + m * centre
+        for m, center in structure.get(component, ()):
+            mass, moment = mass + m, moment + m * center
         rows.append((component, mass, *(moment / mass)))
     return pd.DataFrame(rows, columns=["component", "mass", "x", "y", "z"])
 
@@ -211,8 +211,8 @@ def _closed_payload(
     target = facts("overall")["mass"]
     mass, moment = rest.mass.sum(), float(rest.mass @ rest.x)
     for gear in gears:
-        m, centre = gear_mass_center(gear)
-        mass, moment = mass + m, moment + m * centre[0]
+        m, center = gear_mass_center(gear)
+        mass, moment = mass + m, moment + m * center[0]
     kilograms = tilted(
         payload.mass,
         payload.p[:, 0],

@@ -32,7 +32,7 @@ class AircraftModel:
         attachment: gear name -> grid id.
         interface: grid ids that a reduction keeps, ascending.
         parts: part of the deck -> its grid ids.
-        masses: component, mass (kg), x, y, z of its centre (m); airframe only.
+        masses: component, mass (kg), x, y, z of its center (m); airframe only.
         gears: the landing gears, bodies of the multibody model, not in the deck.
     """
 
@@ -71,7 +71,7 @@ class ModelBuilder:
 
     Ids of elements and properties are handed out from the base of the current part:
     part k has elements and properties from k·100000. `structure` holds mass (kg) and
-    centre (m) of every element with mass, by part; `dependent` the freedoms (grid,
+    center (m) of every element with mass, by part; `dependent` the freedoms (grid,
     component) that UM of a tie has taken.
     """
 
@@ -310,8 +310,8 @@ class ModelBuilder:
         card = "CQUAD4" if len(nodes) == 4 else "CTRIA3"
         self.element(part, card, pid, *nodes, mcid)
         p = np.array([self.position[i] for i in nodes])
-        area, centre = shell_area_centre(p)
-        self._count(part, self._per_area[pid] * area, centre)
+        area, center = shell_area_center(p)
+        self._count(part, self._per_area[pid] * area, center)
 
     def bar(
         self,
@@ -345,9 +345,9 @@ class ModelBuilder:
         extra = np.array(offset) if offset else 0.0
         self._count(part, self._per_length[pid] * length, (pa + pb) / 2 + extra)
 
-    def _count(self, part: str, mass: float, centre: Float64) -> None:
+    def _count(self, part: str, mass: float, center: Float64) -> None:
         if mass:
-            self.structure.setdefault(part, []).append((mass, centre))
+            self.structure.setdefault(part, []).append((mass, center))
 
     def deck(self, title: str, sets: Mapping[int, Sequence[int]], modes: int) -> str:
         """The text of the deck, a normal-modes run of `modes` modes."""
@@ -379,7 +379,7 @@ def density(material: int) -> float:
     return densities.get(material, 0.0)
 
 
-def shell_area_centre(p: Float64) -> tuple[float, Float64]:
+def shell_area_center(p: Float64) -> tuple[float, Float64]:
     """Area (m²) and middle (3,) of a triangle or quadrilateral (3 or 4, 3)."""
     if len(p) == 3:
         return float(np.linalg.norm(np.cross(p[1] - p[0], p[2] - p[0])) / 2), p.mean(0)

@@ -1,6 +1,6 @@
 """DLR-D150-PRE: wings, tails and movables as shells, the fuselage as a beam.
 
-The centre wing box hangs on the fuselage beam by a rigid element. The reference nodes
+The center wing box hangs on the fuselage beam by a rigid element. The reference nodes
 are tied to the shells so that a reduction can keep them.
 """
 
@@ -20,8 +20,8 @@ def build_pre(model: ModelBuilder, reference: Reference, topology: str) -> None:
     Args:
         model: an empty bench.
         reference: the reference nodes.
-        topology: main gears on the rear spar of the centre wing box (`1`), or on the
-            rear spars of the centre wing box and the inner wing (`2`).
+        topology: main gears on the rear spar of the center wing box (`1`), or on the
+            rear spars of the center wing box and the inner wing (`2`).
     """
     for group in reference.values():
         model.grids(group.name, group.ids, group.p)

@@ -3,7 +3,7 @@
 They are the interface of the reduced model: fuselage frames, wing and tail ribs on
 their structural axes, nodes of the movables, engines, gear attachments and monitoring
 points. A node's id says where it belongs: 10001-10087 fuselage frames C01-C87 (there is
-no C22), 11001 starboard and 12001 port wing from the centre outward, 13001, 14001
+no C22), 11001 starboard and 12001 port wing from the center outward, 13001, 14001
 tailplane, 15001 fin, 16001 engines, 17001 gear attachments, 18001 movables, 19001
 monitoring points.
 """

@@ -87,7 +87,7 @@ def add_box(
         high: elements through the height.
         first_id: grid ids ascend from here.
         wedge: closed in a trailing edge.
-        mirror_of: the starboard box, for the port one: shares its centre-plane grids.
+        mirror_of: the starboard box, for the port one: shares its center-plane grids.
     """
     p = box_points(shape, stations, chordwise, high)
     if mirror_of is not None:

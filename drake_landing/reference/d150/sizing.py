@@ -88,7 +88,7 @@ def _tail(name: str) -> BoxSizing:
     span, skin = np.array(data["skin"]).T
     front, rear = (shape.spar_fraction(k, span) for k in (0, 1))
     width = (rear - front) * shape.chord_at(span)
-    heavy = 3 if name == "tailplane" else 2  # centre and pivot ribs, root ribs
+    heavy = 3 if name == "tailplane" else 2  # center and pivot ribs, root ribs
     return BoxSizing(
         skin=_law(span, skin),
         web=_law(*np.array(data["web"]).T),

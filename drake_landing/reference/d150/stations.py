@@ -46,7 +46,7 @@ def plan_x(shape: LiftingSurface, ends: Float64) -> Float64:
 
 
 def wing_stations(size: float) -> Stations:
-    """Starboard wing box from the centre plane to the tip.
+    """Starboard wing box from the center plane to the tip.
 
     Args:
         size: length of the elements along the span, m.
@@ -60,7 +60,7 @@ def wing_stations(size: float) -> Stations:
 
 
 def tail_stations(name: str, size: float) -> Stations:
-    """Box of the starboard tailplane (from the centre plane) or of the fin."""
+    """Box of the starboard tailplane (from the center plane) or of the fin."""
     data, shape = facts("tails")[name], surface(name)
     eta, turn = np.array(data["ribs"]).T.copy()
     if name == "tailplane":

@@ -33,13 +33,13 @@ def tie(model: ModelBuilder, part: str, node: int, grids: Sequence[int]) -> None
 
 
 def dependent_freedoms(
-    p: Float64, centre: Float64, free: npt.NDArray[np.bool_]
+    p: Float64, center: Float64, free: npt.NDArray[np.bool_]
 ) -> list[tuple[int, int]]:
     """Six translations of points that determine a rigid motion best.
 
     Args:
         p: (n, 3) points.
-        centre: (3,) where the motion is taken.
+        center: (3,) where the motion is taken.
         free: (n, 3) those that may be taken.
 
     Returns:
@@ -48,7 +48,7 @@ def dependent_freedoms(
     Raises:
         ValueError: the points lie on one line, or too few freedoms are free.
     """
-    arm = p - centre
+    arm = p - center
     scale = np.linalg.norm(arm - arm.mean(axis=0), axis=1).mean()
     motion = np.zeros((len(p), 3, 6))
     motion[:, range(3), range(3)] = 1.0

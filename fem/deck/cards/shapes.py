@@ -66,15 +66,15 @@ def pbeaml(f: Fields) -> Rows:
     for key, name in (("as", "area"), ("js", "j"), ("i1s", "i1"), ("i2s", "i2")):
         row[key] = np.array([getattr(s.constants, name) for s in shapes])
     row["i12s"] = np.array([s.constants.i12 for s in shapes])
-    # Stress points of a beam are measured from its shear centre.
-    points = np.array([s.stress_points - s.constants.shear_centre for s in shapes])
+    # Stress points of a beam are measured from its shear center.
+    points = np.array([s.stress_points - s.constants.shear_center for s in shapes])
     for k, name in enumerate(_POINTS):
         row[f"{name}1s"], row[f"{name}2s"] = points[:, k, 0], points[:, k, 1]
     row.update(dict.fromkeys("s1 s2 nsia nsib cwa cwb m1a m2a m1b m2b".split(), 0.0))
     row["k1"] = float(np.mean([s.constants.k1 for s in shapes]))
     row["k2"] = float(np.mean([s.constants.k2 for s in shapes]))
     for end, shape in (("a", shapes[0]), ("b", shapes[-1])):
-        y, z = -shape.constants.shear_centre
+        y, z = -shape.constants.shear_center
         row[f"n1{end}"], row[f"n2{end}"] = float(y), float(z)
     return [row]
 

@@ -54,7 +54,7 @@ def of_plies(columns: tuple[str, ...], plies: int) -> tuple[str, ...]:
 
 
 SHELL_RESULTS = (
-    Result(kinds=("force",), columns=SHELL_FORCE, remark="centre, CORNER: + corners"),
+    Result(kinds=("force",), columns=SHELL_FORCE, remark="center, CORNER: + corners"),
     Result(
         kinds=("stress", "strain"),
         columns=at_fibres(SHELL_STRESS),

@@ -16,7 +16,7 @@ import pandas as pd
 from fem.arrays import Float64
 from fem.deck.records.lines import BAR_ENDS, BAR_FORCE, BAR_STRESS
 from fem.deck.references import column, refer, table
-from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.block import CENTER, Detail, Kind, Recovery
 from fem.elements.lines.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.lines.beam_stiffness import SectionCompliance, beam_stiffness
 from fem.elements.lines.line_block import LineBlock
@@ -98,7 +98,7 @@ class Bar(MassInSection, LineBlock):
     def _force_matrix(self) -> Float64:
         return bar_forces(self._at_ends @ self._map)[:, :8]
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+    def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
         """Nastran's eight forces, or all six of both ends as table CBAR_ENDS."""
         if kind != "force" or not detail.ends:
             return super().recovery(kind, detail)
@@ -125,7 +125,7 @@ class Bar(MassInSection, LineBlock):
             id=self.id,
         )
 
-    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64:
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTER) -> Float64:
         """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
         both = bar_forces(self.geometry.end_forces())
         if kind == "force" and detail.ends:

@@ -1,6 +1,6 @@
 """CBEAM: tapered beam with offset neutral axis and offset non-structural mass.
 
-The element x axis joins the shear centres. Section values vary linearly between the
+The element x axis joins the shear centers. Section values vary linearly between the
 stations of PBEAM; the stiffness integrates the flexibility exactly along the taper
 (`beam_stiffness`), so that one element gives the answer of arbitrarily many. Restrained
 warping (CW with SA, SB) is in `beam_warping`; the shear relief of taper (S1, S2) is not
@@ -14,7 +14,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.deck.records.lines import BEAM_FORCE, BEAM_STRESS, at_ends, at_stations
-from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.block import CENTER, Detail, Kind, Recovery
 from fem.elements.lines.bar import bar_forces
 from fem.elements.lines.beam_mass import LineMass, coupled_mass, lumped_mass
 from fem.elements.lines.beam_sections import BeamSection
@@ -100,7 +100,7 @@ class Beam(LineBlock):
             id=self.id,
         )
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+    def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
         """Results at both ends, or at the stations between, table CBEAM_STATIONS."""
         if not detail.stations:
             return super().recovery(kind, detail)
@@ -131,7 +131,7 @@ class Beam(LineBlock):
             extremes=kind != "force",
         )
 
-    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64:
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTER) -> Float64:
         """(e, c, 12) as `forces`, `stresses`, `strains` from forces at the grids."""
         forces = bar_forces(self.geometry.end_forces())
         if kind == "force":

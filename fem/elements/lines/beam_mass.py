@@ -1,4 +1,4 @@
-"""Mass matrices of straight beams at the shear centres, element axes.
+"""Mass matrices of straight beams at the shear centers, element axes.
 
 Nastran's conventions:
 
@@ -9,10 +9,10 @@ Nastran's conventions:
   and 35/420), which halves the frequency error of either, and there is no torsion; with
   the system cell BARMASS CBAR has the mass of CBEAM.
 
-Masses may lie off the shear centre, structural mass at the neutral axis: on the
+Masses may lie off the shear center, structural mass at the neutral axis: on the
 straight line between points that follow the ends like rigid arms, and the shapes are
 those of this line. So does commercial Nastran: ten lowest frequencies of cantilevers
-with taper, offsets, neutral axes and non-structural mass off the shear centre come out
+with taper, offsets, neutral axes and non-structural mass off the shear center come out
 to 3e-8 (results in TACS's comparison of beams, which ran with BARMASS).
 """
 
@@ -32,7 +32,7 @@ class LineMass:
         x: (e, q) positions as fraction of the length.
         weight: (e, q) integration weights, sum 1.
         mass: (e, q) per length.
-        y, z: (e, 2) its place from the shear centre at both ends, linear between them.
+        y, z: (e, 2) its place from the shear center at both ends, linear between them.
         torsion: (e, q) moment of inertia per length about the line of the masses.
     """
 
@@ -45,7 +45,7 @@ class LineMass:
 
 
 def lumped_mass(length: Float64, line: LineMass) -> Float64:
-    """(e, 12, 12) lumped at the ends such that total mass and its centre are kept."""
+    """(e, 12, 12) lumped at the ends such that total mass and its center are kept."""
     shapes = (1.0 - line.x, line.x)
     matrix = np.zeros((len(length), 12, 12))
     for k, shape in zip((0, 6), shapes):
@@ -58,7 +58,7 @@ def lumped_mass(length: Float64, line: LineMass) -> Float64:
 def coupled_mass(
     length: Float64, line: LineMass, *, axial_mean: bool = False
 ) -> Float64:
-    """(e, 12, 12) consistent mass of the line of masses, carried to the shear centres.
+    """(e, 12, 12) consistent mass of the line of masses, carried to the shear centers.
 
     Args:
         length: (e,).
@@ -126,7 +126,7 @@ def _interpolation(x: Float64, length: Float64) -> Float64:
 
 
 def _arms(line: LineMass) -> Float64:
-    """(e, 12, 12) motion of the ends of the line of masses from the shear centres'."""
+    """(e, 12, 12) motion of the ends of the line of masses from the shear centers'."""
     matrix = np.tile(np.eye(12), (len(line.y), 1, 1))
     for end, k in ((0, 0), (1, 6)):
         y, z = line.y[:, end], line.z[:, end]

@@ -47,7 +47,7 @@ class Stations:
 def stress_rows(values: dict[str, Float64], recovery: Float64) -> Float64:
     """(n, 4, 6) stresses at four points per unit of M1 M2 V1 V2 N T.
 
-    The moments of the shear centre are moved to the neutral axis first: there M1 is
+    The moments of the shear center are moved to the neutral axis first: there M1 is
     M1 + y N, and M2 is M2 + z N.
 
     Args:

@@ -11,9 +11,9 @@ torsion, bending with product of inertia) and Φ the motion of B relative to a r
 motion of A (Przemieniecki, Theory of Matrix Structural Analysis, 1968, sections 5.6
 and 8.1). For a prismatic beam this is the Timoshenko element in closed form.
 
-Axes: x along the shear centres from A to B, plane 1 is x-y. Section forces are N, Vy,
+Axes: x along the shear centers from A to B, plane 1 is x-y. Section forces are N, Vy,
 Vz, T, My, Mz; axial force and bending act at the neutral axis, at (y, z) from the
-shear centre.
+shear center.
 """
 
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class SectionCompliance:
         ei1, ei2, ei12: (e, q) bending stiffness of plane 1 (∫ E y²), plane 2 (∫ E z²),
             product (∫ E y z).
         gay, gaz: (e, q) shear stiffness, infinity for none of its flexibility.
-        y, z: (e, q) neutral axis from the shear centre.
+        y, z: (e, q) neutral axis from the shear center.
         y_b, z_b: (e,) the same at end B.
     """
 
@@ -55,7 +55,7 @@ class SectionCompliance:
 
 
 def beam_stiffness(length: Float64, section: SectionCompliance) -> Float64:
-    """(e, 12, 12) stiffness at the shear centres of both ends in element axes.
+    """(e, 12, 12) stiffness at the shear centers of both ends in element axes.
 
     A stiffness that is zero anywhere along a beam releases what it would carry.
 

@@ -3,10 +3,10 @@
 Forces at end B go through the section at each angle by equilibrium; the flexibilities
 of the sections, integrated along the arc, give that of the element, exact for the loads
 at its ends (Gauss points; the integrands are products of sines and cosines). Axes of a
-section: r away from the centre, s along the arc from A to B, z = r x s. Plane 1 is that
+section: r away from the center, s along the arc from A to B, z = r x s. Plane 1 is that
 of the arc (I1), plane 2 is across it (I2).
 
-The neutral axis lies nearer the centre than the centroid by DELTAN, by default
+The neutral axis lies nearer the center than the centroid by DELTAN, by default
 I1 / (A R), so that bending and stretching are coupled (Winkler; Timoshenko, Strength of
 Materials II). The strain energy of a quarter circle is so MSC's to seven digits:
 
@@ -48,12 +48,12 @@ class Arc:
     """Arcs of circles, basic axes.
 
     Attributes:
-        centre: (e, 3).
+        center: (e, 3).
         radius, angle: (e,) of the line of centroids; rad.
-        r, z: (e, 3) unit vectors from the centre to end A, and normal to the plane.
+        r, z: (e, 3) unit vectors from the center to end A, and normal to the plane.
     """
 
-    centre: Float64
+    center: Float64
     radius: Float64
     angle: Float64
     r: Float64
@@ -69,7 +69,7 @@ class Arc:
 
     def places(self, axes: Float64) -> Float64:
         """(e, q, 3) centroids of sections with these axes."""
-        return self.centre[:, None] + self.radius[:, None, None] * axes[:, :, 0]
+        return self.center[:, None] + self.radius[:, None, None] * axes[:, :, 0]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -232,11 +232,11 @@ def _arcs(
         inward = chord - v * (_dot(v, chord) / _dot(v, v))[:, None]
         radius = np.where(geom == 4, 0.5 * length / np.sin(0.5 * angle), radius)
         height = np.sqrt(radius**2 - 0.25 * length**2)
-        centre = 0.5 * (a + b) - height[:, None] * across
+        center = 0.5 * (a + b) - height[:, None] * across
         for number, along in ((1, v), (2, inward)):
             reach = (0.5 * length**2 / _dot(chord, along))[:, None]
-            centre = np.where((geom == number)[:, None], a + reach * along, centre)
-        to_a, to_b = a - centre, b - centre
+            center = np.where((geom == number)[:, None], a + reach * along, center)
+        to_a, to_b = a - center, b - center
         r = to_a / np.linalg.norm(to_a, axis=1)[:, None]
         normal = np.cross(to_a, to_b)
         z = normal / np.linalg.norm(normal, axis=1)[:, None]
@@ -244,7 +244,7 @@ def _arcs(
     parallel = aside <= 1e-9 * np.linalg.norm(v, axis=1)
     _refuse(rows, parallel | ~np.isfinite(np.c_[r, z, opening]).all(axis=1))
     return Arc(
-        centre=centre + zc[:, None] * z,
+        center=center + zc[:, None] * z,
         radius=np.linalg.norm(to_a, axis=1) + rc,
         angle=opening,
         r=r,

@@ -78,7 +78,7 @@ class LineBlock(DenseBlock, ABC):
 
     @property
     def extent(self) -> Float64:
-        """(e,) length between the ends; of CBEAM, between its shear centres."""
+        """(e,) length between the ends; of CBEAM, between its shear centers."""
         return self.geometry.length
 
     @abstractmethod

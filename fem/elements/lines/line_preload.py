@@ -1,7 +1,7 @@
 """Differential stiffness of beams: what their internal forces add to the stiffness.
 
 The section forces N, Vy, Vz, T, My, Mz of the reference axis (that of the grids or of
-the shear centres) do work on the quadratic parts of the strains and, at the ends, of
+the shear centers) do work on the quadratic parts of the strains and, at the ends, of
 the displacements y, z away from the axis. With the rotations p = (theta, py, pz), the
 slopes v', w' and the polar radius r of the section this is
 

@@ -30,8 +30,8 @@ def rigid_mass(mass: Float64, offset: Float64, inertia: Float64) -> Float64:
 
     Args:
         mass: (e,).
-        offset: (e, 3) centre of gravity from the point.
-        inertia: (e, 3, 3) tensor about the centre of gravity, same axes.
+        offset: (e, 3) center of gravity from the point.
+        inertia: (e, 3, 3) tensor about the center of gravity, same axes.
     """
     matrix = np.zeros((len(mass), 6, 6))
     lever = skew(offset)
@@ -55,7 +55,7 @@ def inertia_tensor(moments: Float64) -> Float64:
 def read_conm2(deck: "Deck", points: Points) -> list[PointMasses]:
     """The CONM2 block of a deck, or none.
 
-    With CID -1 the coordinates are those of the centre of gravity in the basic frame.
+    With CID -1 the coordinates are those of the center of gravity in the basic frame.
 
     Raises:
         InputError: undefined grids or coordinate systems.

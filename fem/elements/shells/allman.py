@@ -13,7 +13,7 @@ Theta is tied to the rotation omega of the displacements by G t (Hughes, Brezzi 
     quadrilateral  0.1 A d_0^2 + 0.9 int d^2 dA + 0.001 A h^2,   d = omega - theta
     triangle       0.1 A d_0^2
 
-with d_0 at the centre and h the mean of theta, alternately positive and negative.
+with d_0 at the center and h the mean of theta, alternately positive and negative.
 
 The form was found in MSC Nastran's results and agrees with them to single precision:
 grid point forces of an isotropic square CQUADR and a right-angled CTRIAR in motion give
@@ -43,7 +43,7 @@ class AllmanFields:
         weight: (e, q) area that belongs to each point of integration.
         strain: (e, q, 3, 3 n) strains xx yy xy from u v theta of the corners.
         stress: (e, q, 3, 5) assumed stresses xx yy xy.
-        at: (e, 1 + n, 3, 5) the same at the centre of the area and the corners.
+        at: (e, 1 + n, 3, 5) the same at the center of the area and the corners.
         ties: (e, k, 3 n) what ties theta, with the square root of its weight.
     """
 
@@ -115,14 +115,14 @@ def _quadrilateral(shape: Facet) -> AllmanFields:
         np.sqrt(0.9 * weight)[..., None] * excess[:, :4],
         turns.reshape(len(area), 1, 12),
     ]
-    centre = (weight @ _GAUSS / area)[:, None]
+    center = (weight @ _GAUSS / area)[:, None]
     directions = natural_vectors(shape)
     directions = directions / np.linalg.norm(directions, axis=2, keepdims=True)
-    corners = np.concatenate([np.zeros_like(centre), _CORNERS - centre], axis=1)
+    corners = np.concatenate([np.zeros_like(center), _CORNERS - center], axis=1)
     return AllmanFields(
         weight=weight,
         strain=strain[:, :4],
-        stress=_bending(directions, (_GAUSS - centre)[..., ::-1]),
+        stress=_bending(directions, (_GAUSS - center)[..., ::-1]),
         at=_bending(directions, corners[..., ::-1]),
         ties=np.concatenate(ties, axis=1),
     )

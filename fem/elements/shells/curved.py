@@ -45,7 +45,7 @@ from functools import cached_property
 import numpy as np
 
 from fem.arrays import Float64, Int64
-from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.block import CENTER, Detail, Kind, Recovery
 from fem.elements.preload import of_gradients, symmetric_plane
 from fem.elements.shells.quadratic_surface import (
     QUAD8,
@@ -101,7 +101,7 @@ def _in_axes(
 class CurvedShell(Shell):
     """CQUAD8 or CTRIA6 elements with PSHELL or with PCOMP; basic axes.
 
-    `section` and `angle` are those of the centre.
+    `section` and `angle` are those of the center.
 
     Attributes:
         surface: its natural coordinates.
@@ -178,9 +178,9 @@ class CurvedShell(Shell):
         return self._to_grids(stretch, zero), self._to_grids(both(n), stretch)
 
     def _bubble_curvature(self, p: Float64, k: int, m: int) -> Float64:
-        """(e, q, 2) of b = bubble times the element axes at the centre."""
+        """(e, q, 2) of b = bubble times the element axes at the center."""
         along = self.surface.slopes(p) @ self.reference[:, None]
-        towards = np.einsum("eqki,eji->eqkj", along, self._centre.axes[:, 0])
+        towards = np.einsum("eqki,eji->eqkj", along, self._center.axes[:, 0])
         slope = self.surface.bubble_slopes(p)
         part = slope[:, m, None] * towards[:, :, k]
         return part if k == m else part + slope[:, k, None] * towards[:, :, m]
@@ -216,7 +216,7 @@ class CurvedShell(Shell):
         if not self.surface.bubble:
             return of_grids
         inside = self.surface.bubble_values(p)[:, None]
-        axes = self._centre.axes[:, 0]
+        axes = self._center.axes[:, 0]
         turned = inside * np.einsum("eqi,eji->eqj", along, axes)
         return np.concatenate([of_grids, turned], axis=2)
 
@@ -256,7 +256,7 @@ class CurvedShell(Shell):
     def _with_inside(self, p: Float64) -> Float64:
         """(e, q, 8, 6 n + i) strains of the grids and of the rotations inside."""
         at = self.base(p)
-        turn = turned(self._centre, at)[:, :, 0]
+        turn = turned(self._center, at)[:, :, 0]
         return self._assumed(p, at) + turn @ self._mean_correction[:, None]
 
     def _assumed(self, p: Float64, at: Base) -> Float64:
@@ -283,7 +283,7 @@ class CurvedShell(Shell):
         return [np.concatenate(both, axis=2) for both in parts]
 
     @cached_property
-    def _centre(self) -> Base:
+    def _center(self) -> Base:
         return self.base(self.surface.results[:1])
 
     @cached_property
@@ -297,18 +297,18 @@ class CurvedShell(Shell):
         surface = self.surface
         inner, outer = self.base(surface.stress), self.base(surface.points)
         share = surface.weights.sum() / len(surface.stress)
-        total = self._to_centre(
+        total = self._to_center(
             inner, share * inner.area, self._direct(surface.stress, inner)
         )
-        total -= self._to_centre(
+        total -= self._to_center(
             outer, surface.weights * outer.area, self._assumed(surface.points, outer)
         )
         total[:, 6:] = 0.0  # the shear of the quadrilateral is tied, see `Surface`
         return total / self.extent[:, None, None]
 
-    def _to_centre(self, at: Base, weight: Float64, strain: Float64) -> Float64:
-        """(e, 8, 6 n) weighted sum over points, in the element axes of the centre."""
-        turn = turned(at, self._centre)[:, 0]
+    def _to_center(self, at: Base, weight: Float64, strain: Float64) -> Float64:
+        """(e, 8, 6 n) weighted sum over points, in the element axes of the center."""
+        turn = turned(at, self._center)[:, 0]
         return ((weight[..., None, None] * turn) @ strain).sum(axis=1)
 
     def stiffness(self) -> Float64:
@@ -465,7 +465,7 @@ class CurvedShell(Shell):
         return matrix.reshape(e, 6 * n, 6 * n)
 
     def resultants(self, *, corner: bool = False) -> Float64:
-        """(e, p, 8, 6 n) N, M and Q in the element axes at the centre (and corners).
+        """(e, p, 8, 6 n) N, M and Q in the element axes at the center (and corners).
 
         Strains are extrapolated from the points where they are most exact.
         """
@@ -490,7 +490,7 @@ class CurvedShell(Shell):
         found = section_flexibility(self.section_at(at))
         return found.reshape(len(self.id), len(at), 6, 6)
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
+    def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
         """As `Shell.recovery`, always with the corners, as Nastran prints them."""
         return super().recovery(kind, replace(detail, corner=True))
 

@@ -80,12 +80,12 @@ def _block(
     used = tuple(properties[int(p)] for p in pids)
     thickness = corner_thickness(rows, card, used, which, corners)
     theta, towards = _material(points, rows, nodes)
-    centre = base(surface, nodes, surface.results[:1])
-    normal = _is_normal(towards, centre.normal[:, 0])
+    center = base(surface, nodes, surface.results[:1])
+    normal = _is_normal(towards, center.normal[:, 0])
     # Isotropic elements take the first tangent, which changes nothing.
     isotropic = np.array([p.isotropic for p in used])[which]
     towards[normal & isotropic] = np.nan
-    angle = material_angle(centre, theta, towards)[:, 0]
+    angle = material_angle(center, theta, towards)[:, 0]
     text = "the x axis of its material system MCID is normal to the element"
     text += ", expected a direction in its plane"
     _refuse(rows, card, normal & ~isotropic, text)
@@ -126,11 +126,11 @@ def _refuse(rows: pd.DataFrame, card: str, bad: Bool, text: str) -> None:
 def _check_folds(
     rows: pd.DataFrame, card: str, surface: Surface, nodes: Float64
 ) -> None:
-    """Refuse elements that are folded over: the normal turns against the centre's."""
-    centre = base(surface, nodes, surface.results[:1]).normal
+    """Refuse elements that are folded over: the normal turns against the center's."""
+    center = base(surface, nodes, surface.results[:1]).normal
     for p in (surface.nodes, surface.points):
         here = base(surface, nodes, p)
-        turned = np.einsum("eqi,ei->eq", here.normal, centre[:, 0]).min(axis=1)
+        turned = np.einsum("eqi,ei->eq", here.normal, center[:, 0]).min(axis=1)
         _refuse(rows, card, ~(turned > 0.0), "it is folded over: a mid-side is too far "
                 "from the middle of its edge, or out of order")  # fmt: skip
 
@@ -138,13 +138,13 @@ def _check_folds(
 def _material(
     points: Points, rows: pd.DataFrame, nodes: Float64
 ) -> tuple[Float64, Float64]:
-    """(e,) THETA in rad, and (e, 3) x axis of MCID at the centre, NaN without one."""
+    """(e,) THETA in rad, and (e, 3) x axis of MCID at the center, NaN without one."""
     mcid = rows["mcid"].to_numpy(np.int64)
     towards = np.full((len(rows), 3), np.nan)
     given = mcid >= 0
     if given.any():
-        centre = nodes[given].mean(axis=1)
-        towards[given] = points.frames.triads(mcid[given], centre)[:, :, 0]
+        center = nodes[given].mean(axis=1)
+        towards[given] = points.frames.triads(mcid[given], center)[:, :, 0]
     return np.radians(column(rows, "theta")), towards
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.elements.shells.allman import AllmanFields, allman_fields
-from fem.elements.shells.shell_geometry import Facet, centre_gradient
+from fem.elements.shells.shell_geometry import Facet, center_gradient
 from fem.elements.shells.shell_hybrid import (
     InPlane,
     in_plane,
@@ -34,7 +34,7 @@ class DrillingInPlane:
     Attributes:
         plate: bending.
         membrane: (e, 6 n, 6 n) stiffness of membrane and coupling.
-        force: (e, p, 3, 6 n) N at the centre and the corners.
+        force: (e, p, 3, 6 n) N at the center and the corners.
         moment: (e, 3, 6 n) M by coupling with the mean strains.
     """
 
@@ -62,7 +62,7 @@ def drilling_in_plane(shape: Facet, section: ShellSection) -> DrillingInPlane:
     plate = in_plane(shape, uncoupled, free_across=False)
     plate.reduced[:, : 2 * n, : 2 * n] = 0.0
     membrane, force, strain = _membrane(shape, section)
-    gradient = plane_strain_operator(centre_gradient(shape))
+    gradient = plane_strain_operator(center_gradient(shape))
     curvature = scatter(np.concatenate([np.zeros_like(gradient), gradient], axis=2))
     coupling = section.coupling
     cross = area * (strain.transpose(0, 2, 1) @ coupling @ curvature)

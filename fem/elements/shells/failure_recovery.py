@@ -18,7 +18,7 @@ def failure_names(plies: int) -> tuple[str, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class FailureRecovery(Recovery):
-    """Failure indices from the resultants N M Q at the element centre.
+    """Failure indices from the resultants N M Q at the element center.
 
     Attributes:
         laminate: (e,) which of the laminates.

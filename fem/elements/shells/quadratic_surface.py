@@ -130,7 +130,7 @@ class Surface:
 
     @cached_property
     def results(self) -> Float64:
-        """(1 + c, 2) the centre and the corners."""
+        """(1 + c, 2) the center and the corners."""
         own = self.nodes[: self.corners]
         return np.concatenate([own.mean(axis=0)[None], own])
 

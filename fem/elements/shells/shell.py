@@ -11,7 +11,7 @@ import numpy as np
 
 from fem.arrays import Float64, Int64
 from fem.deck.records.shells import PLY_STRAIN, PLY_STRESS, SHELL_FORCE, of_plies
-from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.block import CENTER, Detail, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.drilling_membrane import DrillingInPlane, drilling_in_plane
 from fem.elements.shells.expansion import curled, stretched, warmed
@@ -195,8 +195,8 @@ class Shell(DenseBlock):
     def resultants(self, *, corner: bool = False) -> Float64:
         """(e, p, 8, 6 n) N, M and Q from grid freedoms in basic axes, element axes.
 
-        M = int sigma z dz. p is 1, or 5 (centre, corners) for quadrilaterals with
-        `corner`; Q is that of the centre everywhere.
+        M = int sigma z dz. p is 1, or 5 (center, corners) for quadrilaterals with
+        `corner`; Q is that of the center everywhere.
         """
         parts = [
             self._resultants(slice(start, start + _CHUNK), corner)
@@ -215,7 +215,7 @@ class Shell(DenseBlock):
         return flat.reshape(e, p, 8, -1)
 
     def forces(self, *, corner: bool = False) -> Recovery:
-        """Nastran's shell forces at the centre, with `corner` also at the corners."""
+        """Nastran's shell forces at the center, with `corner` also at the corners."""
         resultant = self.resultants(corner=corner)
         resultant[:, :, 3:6] *= -1.0
         e, p = resultant.shape[:2]
@@ -227,7 +227,7 @@ class Shell(DenseBlock):
         )
 
     def stresses(self, *, corner: bool = False) -> Recovery:
-        """Stresses at both fibres; of laminates the ply stresses (centre)."""
+        """Stresses at both fibres; of laminates the ply stresses (center)."""
         if self.property_card == "PCOMP":
             return self._plies()
         resultant = self.resultants(corner=corner)
@@ -275,8 +275,8 @@ class Shell(DenseBlock):
             strain=True,
         )
 
-    def recovery(self, kind: Kind, detail: Detail = CENTRE) -> Recovery | None:
-        """Results at the centre or with the corners, strains of surface or fibres."""
+    def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
+        """Results at the center or with the corners, strains of surface or fibres."""
         if kind == "failure":
             return self._failures()
         if kind == "force":
@@ -293,7 +293,7 @@ class Shell(DenseBlock):
         return section_flexibility(self.section)[:, None]
 
     def _material_resultants(self) -> Float64:
-        """(e, 8, 6 n) N, M and Q at the centre in material axes."""
+        """(e, 8, 6 n) N, M and Q at the center in material axes."""
         resultant = self.resultants()[:, 0]
         turn = strain_rotation(self.angle)
         # Stresses turn with the inverse transpose of what turns strains.
@@ -308,7 +308,7 @@ class Shell(DenseBlock):
         )
 
     def _plies(self, *, strain: bool = False) -> Recovery:
-        """Ply results from the resultants at the centre, turned to material axes."""
+        """Ply results from the resultants at the center, turned to material axes."""
         found = [p.ply_map(strain=strain) for p in self.properties]
         most = max(map(len, found))
         maps = np.full((len(found), 5 * most, 8), np.nan)

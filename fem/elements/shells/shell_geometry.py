@@ -9,7 +9,7 @@ Warp acts without the rotations of the grids (MacNeal 1978: forces off the plane
 balanced by forces along the normal). A corner at height z follows the mean slope of w
 over the element; and where w is warped itself by w_h, alternately up and down, the
 sides of the warped shape stretch: with the tangents x,1 = (j_1, z,1) its strain at the
-centre has the covariant parts h w_h along both natural directions. Rigid motions give
+center has the covariant parts h w_h along both natural directions. Rigid motions give
 none. Under MSC's displacements the membrane forces of a foreign airframe's warped
 quadrilaterals are so MSC's to 1e-4.
 
@@ -174,8 +174,8 @@ def corner_spin(gradients: Float64) -> Float64:
     return 0.5 * np.stack([-gradients[:, :, 1], gradients[:, :, 0]], axis=3)
 
 
-def centre_gradient(shape: Facet) -> Float64:
-    """(e, 2, n) derivatives in x and y of the shape functions at the centre."""
+def center_gradient(shape: Facet) -> Float64:
+    """(e, 2, n) derivatives in x and y of the shape functions at the center."""
     x = shape.xy
     # Of both shapes: dN/dx = (y_next - y_previous) / 2A, dN/dy = -(x_next - ...) / 2A.
     across = np.roll(x, -1, axis=1) - np.roll(x, 1, axis=1)
@@ -186,7 +186,7 @@ def centre_gradient(shape: Facet) -> Float64:
 
 
 def natural_vectors(shape: Facet) -> Float64:
-    """(e, 2, 2) derivatives of (x, y) along xi and eta at the centre (rows)."""
+    """(e, 2, 2) derivatives of (x, y) along xi and eta at the center (rows)."""
     x = shape.xy
     return 0.25 * np.stack(
         [x[:, 1] + x[:, 2] - x[:, 0] - x[:, 3], x[:, 2] + x[:, 3] - x[:, 0] - x[:, 1]],
@@ -201,7 +201,7 @@ def _warping(shape: Facet) -> Float64:
     with w_h the part of w that no linear field has.
     """
     sign = np.array([1.0, -1.0, 1.0, -1.0])
-    gradient, height = centre_gradient(shape), shape.warp[:, None, None, None]
+    gradient, height = center_gradient(shape), shape.warp[:, None, None, None]
     rotation = sign[:, None, None] * gradient[:, None]
     hourglass = 0.25 * (sign - (sign @ shape.xy)[:, None] @ gradient)[:, 0]
     inverse = np.linalg.inv(natural_vectors(shape))

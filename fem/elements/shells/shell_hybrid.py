@@ -6,7 +6,7 @@ With compatible linear displacements and rotations it is exact for uniform state
 shape (patch test) and for bending of rectangles in their plane. Laminates couple both
 through their compliance [A B; B D]^-1.
 
-The linear resultants know no shear in their plane (Nastran takes it at the centre), and
+The linear resultants know no shear in their plane (Nastran takes it at the center), and
 the strain across is what it would be in a membrane that is free there: -A_12 / A_22 of
 the strain along, in bending too, as the displacements and the rotations have one set of
 shape functions. Of isotropic sheets the compliance says the same; of laminates, where
@@ -34,7 +34,7 @@ class InPlane:
         reduced: (e, 4 n, 4 n) stiffness.
         modes: (e, b, 4 n) amplitudes of the assumed resultants.
         at: (e, p, 6, b) resultants N (xx yy xy) and M of unit amplitudes at p points:
-            the centre of the area, then for quadrilaterals the corners.
+            the center of the area, then for quadrilaterals the corners.
     """
 
     reduced: Float64
@@ -180,9 +180,9 @@ def _quadrilateral(shape: Facet, section: ShellSection, free_across: bool) -> In
     jacobian = derivative @ shape.xy[:, None]
     weight = np.linalg.det(jacobian)
     strain = plane_strain_operator(np.linalg.inv(jacobian) @ derivative)
-    centre = (weight @ _GAUSS) / weight.sum(axis=1)[:, None]
+    center = (weight @ _GAUSS) / weight.sum(axis=1)[:, None]
     along = _natural_directions(shape)
-    at_gauss = _resultant_modes(along, _GAUSS - centre[:, None])
+    at_gauss = _resultant_modes(along, _GAUSS - center[:, None])
     force = np.einsum("eq,eqsb,eqsn->ebn", weight, at_gauss, strain, optimize=True)
     joined, there = _joined(section)
     flexible = _flexibility(
@@ -191,7 +191,7 @@ def _quadrilateral(shape: Facet, section: ShellSection, free_across: bool) -> In
     for k, coordinate in ((0, 1), (1, 0)):
         line = _line_compliance(joined, there, along[:, k], free_across)
         line = _of_thickness(line, section)
-        square = weight * (_GAUSS[:, coordinate] - centre[:, coordinate, None]) ** 2
+        square = weight * (_GAUSS[:, coordinate] - center[:, coordinate, None]) ** 2
         pair = np.array([3 + k, 8 + k])
         flexible[:, pair[:, None], pair] = np.sum(
             square[..., None, None] * line, axis=1
@@ -201,8 +201,8 @@ def _quadrilateral(shape: Facet, section: ShellSection, free_across: bool) -> In
     work[:, 5:, 8:] = force * there[:, None, None, 3]
     modes = np.linalg.solve(flexible, work)
     stiffness = work.transpose(0, 2, 1) @ modes
-    # At the centre of the area the resultants are the mean ones: Nastran's "centre".
-    corners = _CORNERS - centre[:, None]
+    # At the center of the area the resultants are the mean ones: Nastran's "center".
+    corners = _CORNERS - center[:, None]
     points = np.concatenate([np.zeros_like(corners[:, :1]), corners], axis=1)
     points = _resultant_modes(along, points)
     at = np.zeros((*points.shape[:2], 6, 10))
@@ -224,7 +224,7 @@ def _flexibility(modes: Float64, weight: Float64, compliance: Float64) -> Float6
 
 
 def _natural_directions(shape: Facet) -> Float64:
-    """(e, 2, 2) unit vectors along xi and eta at the centre."""
+    """(e, 2, 2) unit vectors along xi and eta at the center."""
     along = natural_vectors(shape)
     return along / np.linalg.norm(along, axis=2, keepdims=True)
 
@@ -234,7 +234,7 @@ def _resultant_modes(along: Float64, at: Float64) -> Float64:
 
     Args:
         along: (e, 2, 2) unit vectors along xi and eta.
-        at: (e, p, 2) natural coordinates about the centre of the area, so that the
+        at: (e, p, 2) natural coordinates about the center of the area, so that the
             linear resultants have no mean. (Lengths divided out: the columns stay of
             order one on any mesh.)
     """

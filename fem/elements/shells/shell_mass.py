@@ -2,7 +2,7 @@
 
 Lumped: each corner takes the integral of its shape function; coupled: the consistent
 matrix of linear shape functions (PARAM COUPMASS). Mass away from the grids (ZOFFS,
-laminates that are not centred) couples translations with rotations, so that the centre
+laminates that are not centered) couples translations with rotations, so that the center
 of gravity is right.
 """
 

@@ -29,7 +29,7 @@ import numpy as np
 
 from fem.arrays import Float64
 from fem.elements.preload import of_gradients, symmetric_plane, turning_arm
-from fem.elements.shells.shell_geometry import Facet, centre_gradient, matrix_to_grids
+from fem.elements.shells.shell_geometry import Facet, center_gradient, matrix_to_grids
 
 _G = 1.0 / np.sqrt(3.0)
 _CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
@@ -53,7 +53,7 @@ def facet_differential(shape: Facet, membrane: Float64) -> Float64:
 
     Args:
         shape: flat shapes of triangles or quadrilaterals.
-        membrane: (e, p, 3) N xx yy xy in element axes at the centre and, of
+        membrane: (e, p, 3) N xx yy xy in element axes at the center and, of
             quadrilaterals, at the corners.
     """
     gradient, weighted = _at_points(shape, membrane)
@@ -91,7 +91,7 @@ def add_turning(matrix: Float64, force: Float64, arm: Float64) -> None:
 def _at_points(shape: Facet, membrane: Float64) -> tuple[Float64, Float64]:
     """(e, q, 2, n) gradients and (e, q, 2, 2) forces times weights."""
     if shape.corners == 3:
-        gradient = centre_gradient(shape)[:, None]
+        gradient = center_gradient(shape)[:, None]
         weight = shape.area[:, None]
         at_points = membrane[:, :1]
     else:

@@ -121,8 +121,8 @@ def _material_angle(
     direction = xyz[:, 1] - xyz[:, 0]
     given = mcid >= 0
     if given.any():
-        centre = xyz[given].mean(axis=1)
-        direction[given] = points.frames.triads(mcid[given], centre)[:, :, 0]
+        center = xyz[given].mean(axis=1)
+        direction[given] = points.frames.triads(mcid[given], center)[:, :, 0]
     x, y, z = np.einsum("eij,ej->ie", axes, direction)
     normal = given & (np.hypot(x, y) <= 1e-6 * np.abs(z))
     side = xyz[normal, 1] - xyz[normal, 0]

@@ -1,7 +1,7 @@
 """Printed results of shells from their resultants, in Nastran's columns.
 
 Element axes. M follows Nastran: the stress at height z is N / t - 12 M z / t^3. Results
-at more than one point (centre, corners) or fibre stand side by side: the columns of
+at more than one point (center, corners) or fibre stand side by side: the columns of
 corner k start with `c<k>_`, those of the lower and upper fibre end with `_1` and `_2`.
 """
 
@@ -25,7 +25,7 @@ def with_heat(matrix: Float64) -> Float64:
 
 
 def point_names(columns: tuple[str, ...], points: int) -> tuple[str, ...]:
-    """Columns of the centre and of the corners 1 ... points - 1."""
+    """Columns of the center and of the corners 1 ... points - 1."""
     prefixes = ("", *(f"c{k}_" for k in range(1, points)))
     return tuple(f"{prefix}{name}" for prefix in prefixes for name in columns)
 
@@ -72,7 +72,7 @@ class FibreRecovery(Recovery):
 
 @dataclass(frozen=True, kw_only=True)
 class PlyRecovery(Recovery):
-    """Ply stresses or strains from the resultants N M Q at the element centre.
+    """Ply stresses or strains from the resultants N M Q at the element center.
 
     Attributes:
         laminate: (e,) which of the laminates.

@@ -107,7 +107,7 @@ def shear(
         drills: of CQUADR and CTRIAR.
 
     Returns:
-        (e, 6 n, 6 n) stiffness and (e, 2, 6 n) shear forces at the centre; both zero
+        (e, 6 n, 6 n) stiffness and (e, 2, 6 n) shear forces at the center; both zero
         where the element has no bending stiffness.
     """
     plate = np.einsum("eii->e", section.bending) > 0.0

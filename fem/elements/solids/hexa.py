@@ -54,7 +54,7 @@ def _sampling(order: int) -> Sampling:
         coarse=gauss_hex(2),
         basis=hex8,
         axes=hexa_axes,
-        centre=OUTPUT[:1],
+        center=OUTPUT[:1],
     )
 
 

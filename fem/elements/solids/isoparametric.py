@@ -100,7 +100,7 @@ def gauss_tetra(order: int) -> Rule:
 
 
 def tetra5() -> Rule:
-    """Five points, exact to degree 3, the one at the centre with a negative weight."""
+    """Five points, exact to degree 3, the one at the center with a negative weight."""
     points = np.full((5, 3), 1.0 / 6.0)
     points[0] = 0.25
     points[[2, 3, 4], [0, 1, 2]] = 0.5

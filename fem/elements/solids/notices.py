@@ -29,7 +29,7 @@ def solid_notices(deck: "Deck") -> list[str]:
         if row["stress"].upper() in ("GAUSS", "1"):
             notices.append(
                 f"{here}: STRESS '{row['stress']}' is not done, stresses stand at the "
-                "centre and the corners"
+                "center and the corners"
             )
     return notices
 

@@ -38,8 +38,8 @@ from fem.geometry.points import Points
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-CENTRE = np.array([[1.0 / 3.0, 1.0 / 3.0, 0.0]])
-OUTPUT = np.concatenate([CENTRE, PENTA_CORNERS])
+CENTER = np.array([[1.0 / 3.0, 1.0 / 3.0, 0.0]])
+OUTPUT = np.concatenate([CENTER, PENTA_CORNERS])
 _SIDES = ((0, 1), (1, 2), (2, 0))
 
 
@@ -75,7 +75,7 @@ def mid_plane(xyz: Float64) -> MidPlane:
 
 
 def penta_solid(xyz: Float64, elasticity: Float64) -> SolidMatrices:
-    """Stiffness and stresses at the centre and the corners.
+    """Stiffness and stresses at the center and the corners.
 
     Args:
         xyz: (e, 6, 3) nodes in the basic frame.
@@ -187,15 +187,15 @@ def _symmetric(a: Float64, b: Float64) -> Float64:
 def _bubble(xyz: Float64, at: Float64) -> Float64:
     """(e, q, 6, 3) Cartesian strains of the bubble functions.
 
-    Taken with the Jacobian of the centre and scaled by the ratio of volumes, so that
+    Taken with the Jacobian of the center and scaled by the ratio of volumes, so that
     their mean vanishes (patch test).
     """
-    centre = jacobians(xyz, penta6_derivatives(CENTRE))[:, 0]
+    center = jacobians(xyz, penta6_derivatives(CENTER))[:, 0]
     here = np.linalg.det(jacobians(xyz, penta6_derivatives(at)))
     area = np.stack([1.0 - at[:, 0] - at[:, 1], at[:, 0], at[:, 1]], axis=1)
     slope_r, slope_s = 2.0 * (area[:, 1] - area[:, 0]), 2.0 * (area[:, 2] - area[:, 0])
     # Each bubble moves along one natural direction d: metric g_ab = x_a . x_b.
-    metric = centre @ centre.transpose(0, 2, 1)
+    metric = center @ center.transpose(0, 2, 1)
     covariant = np.zeros((len(xyz), len(at), 6, 3))
     for mode in (0, 1):
         towards = metric[:, None, mode]
@@ -203,8 +203,8 @@ def _bubble(xyz: Float64, at: Float64) -> Float64:
         covariant[..., 1, mode] = towards[..., 1] * slope_s
         covariant[..., 3, mode] = towards[..., 0] * slope_s + towards[..., 1] * slope_r
     covariant[..., 2, 2] = metric[:, None, 2, 2] * (-2.0 * at[:, 2])
-    ratio = np.linalg.det(centre)[:, None] / here
-    turn = strain_transform(np.linalg.inv(centre))[:, None]
+    ratio = np.linalg.det(center)[:, None] / here
+    turn = strain_transform(np.linalg.inv(center))[:, None]
     return ratio[..., None, None] * (turn @ covariant)
 
 

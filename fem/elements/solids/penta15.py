@@ -27,8 +27,8 @@ from fem.elements.solids.solid_stiffness import (
     reduced_shear_solid,
 )
 
-CENTRE = np.array([[1.0 / 3.0, 1.0 / 3.0, 0.0]])
-OUTPUT = np.concatenate([CENTRE, PENTA_CORNERS])
+CENTER = np.array([[1.0 / 3.0, 1.0 / 3.0, 0.0]])
+OUTPUT = np.concatenate([CENTER, PENTA_CORNERS])
 _SIDES = (np.array([0, 1, 2]), np.array([1, 2, 0]))
 _SLOPE = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])
 _FINE, _COARSE = product_penta(7, 3), product_penta(7, 2)
@@ -83,7 +83,7 @@ def penta15_solid(
         coarse=_COARSE,
         basis=penta6,
         axes=penta_axes,
-        centre=CENTRE,
+        center=CENTER,
         direct=(0, 1, 3),
         printed=(0, 1),
     )
@@ -105,7 +105,7 @@ PENTA15 = Shape(
     values=penta15,
     derivatives=penta15_derivatives,
     mass_rule=_FINE,
-    checked=np.concatenate([CENTRE, _FINE.points]),
+    checked=np.concatenate([CENTER, _FINE.points]),
     integration={
         ("TWO", "REDUCED"): partial(penta15_solid, rule=product_penta(3, 2)),
         ("TWO", "FULL"): partial(penta15_full, rule=product_penta(3, 2)),

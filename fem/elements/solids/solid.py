@@ -1,4 +1,4 @@
-"""Blocks of solids: three freedoms per node, stresses at the centre and the corners."""
+"""Blocks of solids: three freedoms per node, stresses at the center and the corners."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
@@ -53,7 +53,7 @@ def lumped_mass(nodes: Float64, masses: Float64, corners: int) -> Float64:
 
     The integrals of the shape functions, as long as they are positive. With mid-sides
     those of corners are negative: what such corners have is given to the mid-sides in
-    proportion to their squared distance from the centre of the element. On a box this
+    proportion to their squared distance from the center of the element. On a box this
     is 1/24 + L^2 / (8 sum L^2) of the mass on the middle of an edge of length L, which
     MSC 2020 has (gravity load of one CHEXA with edges of 2.5, 5 and 10). On a right
     prism NX 2019.2 has other shares, by up to 0.012 of the element's mass.
@@ -66,8 +66,8 @@ def lumped_mass(nodes: Float64, masses: Float64, corners: int) -> Float64:
     if masses.shape[1] == corners:
         return masses
     middles = nodes[:, corners:]
-    centre = nodes[:, :corners].mean(axis=1, keepdims=True)
-    square = ((middles - centre) ** 2).sum(axis=2)
+    center = nodes[:, :corners].mean(axis=1, keepdims=True)
+    square = ((middles - center) ** 2).sum(axis=2)
     share = square / square.sum(axis=1, keepdims=True)
     lumped = masses.copy()
     lumped[:, :corners] = np.maximum(masses[:, :corners], 0.0)
@@ -173,11 +173,11 @@ class Solid(DenseBlock):
         return full.reshape(-1, size, size)
 
     def stresses(self) -> Recovery:
-        """Stresses at the centre and the corners in material axes."""
+        """Stresses at the center and the corners in material axes."""
         return self._recovery(strain=False)
 
     def strains(self) -> Recovery:
-        """Strains at the centre and the corners in material axes."""
+        """Strains at the center and the corners in material axes."""
         return self._recovery(strain=True)
 
     def _recovery(self, *, strain: bool) -> Recovery:

@@ -29,7 +29,7 @@ def solid_differential(
 
     Args:
         nodes: (e, n, 3) in the basic frame.
-        stress: (e, p, 6) xx yy zz xy yz zx at the centre, then at the corners.
+        stress: (e, p, 6) xx yy zz xy yz zx at the center, then at the corners.
         corners: number of corners.
         rule: quadrature.
         derivatives: of the shape functions.

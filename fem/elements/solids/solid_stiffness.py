@@ -82,8 +82,8 @@ class Sampling:
         coarse: quadrature of the others.
         basis: functions of the natural coordinates to which those are fitted at the
             points of `coarse`, least squares with the weights of the integration.
-        axes: element axes (e, 3, 3) from the Jacobian at the centre.
-        centre: (1, 3) natural point.
+        axes: element axes (e, 3, 3) from the Jacobian at the center.
+        center: (1, 3) natural point.
         direct: which of xx yy zz xy yz zx in the element axes are taken as they are.
         printed: which of them are printed as they are.
     """
@@ -92,7 +92,7 @@ class Sampling:
     coarse: Rule
     basis: Derivatives
     axes: Callable[[Float64], Float64]
-    centre: Float64
+    center: Float64
     direct: tuple[int, ...] = (0, 1, 2)
     printed: tuple[int, ...] = (0, 1, 2)
 
@@ -109,7 +109,7 @@ def reduced_shear_solid(
     The energy is that of all strains by the coarse rule, and of the direct ones by the
     fine rule instead. Arguments as for `displacement_solid`.
     """
-    axes = sampling.axes(jacobians(xyz, derivatives(sampling.centre))[:, 0])
+    axes = sampling.axes(jacobians(xyz, derivatives(sampling.center))[:, 0])
     turn = stress_rotation(axes, strain=True)
 
     def part(rows: tuple[int, ...]) -> Float64:
@@ -165,7 +165,7 @@ def hybrid_solid(
         derivatives: shape function derivatives at natural points.
         rule: quadrature.
         modes: (q, 6, b) contravariant stresses at natural points; they are turned by
-            the Jacobian at the first point of `at`, the centre.
+            the Jacobian at the first point of `at`, the center.
         at: (p, 3) natural points of the stresses.
     """
     strain, weight = _strain(xyz, derivatives, rule)

@@ -101,7 +101,7 @@ def test_two_gears_on_one_grid_and_a_wheel_on_the_other_side_are_said():
 
 
 @pytest.mark.parametrize(("x", "where"), [(60.0, "ahead of"), (-5.0, "behind")])
-def test_a_centre_of_gravity_outside_all_wheels_is_said(x, where):
+def test_a_center_of_gravity_outside_all_wheels_is_said(x, where):
     gears = [changed(g, axle=(x, *g.axle[1:])) for g in (LEFT, RIGHT)]
     assert any(f"m {where} all wheels" in text for text in _places_told(*gears))
 
@@ -232,7 +232,7 @@ def test_gas_of_a_levered_gear_is_held_against_the_load_on_its_absorber():
     assert 320.0 < carried < 700.0
 
 
-def test_a_centre_of_gravity_behind_the_main_wheels_is_remarked():
+def test_a_center_of_gravity_behind_the_main_wheels_is_remarked():
     behind = BODY.p_BG + np.array([3.0, 0.0, 0.0])
     found = gear_remarks([NOSE, LEFT, RIGHT], BODY.mass, behind)
     assert found[0].startswith("gears.nose: carries -")

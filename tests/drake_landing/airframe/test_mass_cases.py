@@ -256,7 +256,7 @@ def test_a_file_of_loads_names_what_is_wrong(tmp_path):
     assert "found GRAV, expected FORCE and MOMENT alone" in str(error.value)
 
 
-def test_centre_of_gravity_over_the_mean_chord():
+def test_center_of_gravity_over_the_mean_chord():
     """Leading edge at 7 m, chord 2 m: 8.5 m is 75 %, whichever way the deck flies."""
     from drake_landing.case.chord import Chord
 

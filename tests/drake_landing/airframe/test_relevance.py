@@ -112,7 +112,7 @@ def test_symmetric_landings_leave_antisymmetric_modes_out(
     model = modal_model(structure, basis, aircraft)
     half = len(relevance.order) // 4
     most = relevance.order[:half]
-    lateral = np.abs(model.monitor[1, 1]) > 1e-6  # the centre moves sideways
+    lateral = np.abs(model.monitor[1, 1]) > 1e-6  # the center moves sideways
     assert not lateral[most].any()
     case = tiny(scenario=", roll: 3")
     assert not is_symmetric(case.scenario)

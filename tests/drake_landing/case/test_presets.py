@@ -130,10 +130,10 @@ def test_braked_nose_load_is_about_that_of_the_dynamic_formula():
     """25.493(e): V_N = W/(A + B) [B + f μ A E/(A + B + μ E)], f = 2 undamped."""
     scenario = Scenario.model_validate({"preset": "braked_roll"})
     _, loads = _run(scenario, modes=0, duration=0.7, accuracy=1e-4)
-    mass, centre = aircraft_mass_center(aircraft_body(0), _gears())
-    A, B = centre[0] - 5.07, 17.71 - centre[0]
+    mass, center = aircraft_mass_center(aircraft_body(0), _gears())
+    A, B = center[0] - 5.07, 17.71 - center[0]
     # Struts about static: the ground is some 0.55 m nearer than extended.
-    E = centre[2] + 4.30 - 0.55
+    E = center[2] + 4.30 - 0.55
     mu, friction = 0.8, 2.0
     dynamic = friction * mu * A * E / (A + B + mu * E)
     expected = mass * G / (A + B) * (B + dynamic)

@@ -9,7 +9,7 @@ POSES = ("static", "largest", "all_wheels", "reduced", "tail_down", "extended")
 
 
 def place(x: float, y: float, height: float, axle: float = 0.5) -> GearPlace:
-    """A gear below and beside the centre of gravity."""
+    """A gear below and beside the center of gravity."""
     return GearPlace(
         ground=np.array([x, y, -height]),
         axle=np.array([x, y, -height + axle]),

@@ -26,7 +26,7 @@ def _raked(**changes) -> LandingGear:
     return TelescopicGear.model_validate(data)
 
 
-def test_mass_and_centre_of_gravity_of_the_extended_gear():
+def test_mass_and_center_of_gravity_of_the_extended_gear():
     gear = _raked()
     plant, _, context = _plant(gear)
     assert_allclose(plant.CalcTotalMass(context), gear.mass)
@@ -53,9 +53,9 @@ def test_moments_of_inertia_of_the_whole_gear():
         (gear.piston.mass, gear.piston.cg, gear.piston.inertia),
     ]
     for y in gear.wheel_offsets:
-        centre = np.array(gear.axle) + np.array([0.0, y, 0.0])
+        center = np.array(gear.axle) + np.array([0.0, y, 0.0])
         own = (w.transverse, w.spin_inertia, w.transverse)
-        parts.append((w.mass, centre, own))
+        parts.append((w.mass, center, own))
     expected = np.zeros((3, 3))
     for mass, p, own in parts:
         r = np.array(p) - P_BA
@@ -82,8 +82,8 @@ def test_wheels_sit_on_the_axle_and_spin_about_it():
     wheel = bodies.wheels["main_right_left"]
     velocity = wheel.EvalSpatialVelocityInWorld(context).get_coeffs()
     assert_allclose(velocity, [0, -5, 0, 0, 0, 0], atol=1e-14)
-    centre = wheel.EvalPoseInWorld(context).translation() + P_BA
-    assert_allclose(centre, np.array(gear.axle) - np.array([0, 0.465, 0]), atol=1e-13)
+    center = wheel.EvalPoseInWorld(context).translation() + P_BA
+    assert_allclose(center, np.array(gear.axle) - np.array([0, 0.465, 0]), atol=1e-13)
 
 
 @pytest.mark.parametrize(

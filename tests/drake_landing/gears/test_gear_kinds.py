@@ -14,7 +14,7 @@ from drake_landing.gears.bodies import (
     AddLandingGear,
     mass_points,
     strut_axis,
-    wheel_centres,
+    wheel_centers,
 )
 from drake_landing.gears.data import TelescopicGear, read_gear
 from drake_landing.gears.systems import AddGearSystems
@@ -224,9 +224,9 @@ def test_bogie_has_four_named_wheels_where_the_axles_are():
         "main_left_rear_left",
         "main_left_rear_right",
     )
-    centres = wheel_centres(gear)
+    centers = wheel_centers(gear)
     x, y, z = 17.71, -3.795, -3.716
-    assert_allclose(centres["main_left_rear_right"], [x + 0.68, y + 0.465, z])
+    assert_allclose(centers["main_left_rear_right"], [x + 0.68, y + 0.465, z])
     plant, _ = _plant(gear)
     plant.Finalize()
     assert plant.num_velocities() == 6 + 1 + 1 + 4
@@ -330,7 +330,7 @@ def test_steering_turns_all_below_the_fitting_about_one_axis(kind):
     straight = NOSE_KINDS[kind]()
     turned = changed(straight, steering_deg=20.0)
     axis = np.array([0.0, 0.0, 1.0]) if kind == "levered" else strut_axis(straight)
-    centre = np.array(getattr(straight, "pivot", straight.axles[0]))
+    center = np.array(getattr(straight, "pivot", straight.axles[0]))
     R = RotationMatrix(AngleAxis(-np.radians(20.0), axis)).matrix()
     poses, inertia = {}, {}
     for gear in (straight, turned):
@@ -342,11 +342,11 @@ def test_steering_turns_all_below_the_fitting_about_one_axis(kind):
             poses[gear, name] = body.EvalPoseInWorld(context)
         moving = [body.index() for body in bodies.parts.values()]
         spatial = plant.CalcSpatialInertia(context, plant.world_frame(), moving)
-        about = spatial.Shift(centre - P_BA).CalcRotationalInertia()
+        about = spatial.Shift(center - P_BA).CalcRotationalInertia()
         inertia[gear] = about.CopyToFullMatrix3()
     for (gear, name), pose in poses.items():
         if gear is straight:
-            p = centre - P_BA + R @ (pose.translation() - centre + P_BA)
+            p = center - P_BA + R @ (pose.translation() - center + P_BA)
             assert_allclose(poses[turned, name].translation(), p, atol=1e-12)
             found = poses[turned, name].rotation().matrix()
             assert_allclose(found, R @ pose.rotation().matrix(), atol=1e-12)
@@ -354,7 +354,7 @@ def test_steering_turns_all_below_the_fitting_about_one_axis(kind):
 
 
 @pytest.mark.parametrize("kind", NOSE_KINDS)
-def test_centre_of_gravity_of_a_steered_gear_is_that_of_its_bodies(kind):
+def test_center_of_gravity_of_a_steered_gear_is_that_of_its_bodies(kind):
     gear = changed(NOSE_KINDS[kind](), steering_deg=35.0)
     plant, bodies = _plant(gear)
     plant.Finalize()

@@ -22,7 +22,7 @@ LINE = 1 + CASE[: CASE.index(OLD)].count("\n")
 
 def test_crown_and_offset_of_the_aircraft():
     runway = runway_of(RunwaySection(crown=0.015, offset=4.0), origin=(-3.0, 0.0))
-    # The centre line lies 4 m to port of the aircraft.
+    # The center line lies 4 m to port of the aircraft.
     assert runway.height(0.0, -4.0) == 0.0
     assert runway.height(0.0, 0.0) == Runway(crown=0.015).height(0.0, 4.0)
 

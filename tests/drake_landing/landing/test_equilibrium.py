@@ -40,12 +40,12 @@ def test_standing_aircraft_obeys_the_lever_rule(modes):
     landing = MakeLandingDiagram(body, gears, gravity=G)
     context = landing.diagram.CreateDefaultContext()
     set_static_equilibrium(landing, context)
-    mass, centre = aircraft_mass_center(body, gears)
+    mass, center = aircraft_mass_center(body, gears)
     nose, left, right = _loads(landing, context)
     assert_allclose(nose + left + right, G * mass, rtol=1e-9)
     assert_allclose(left, right, rtol=1e-9)
     # Wheelbase 12.64 m; the struts' closing moves the c.g. by a millimetre or so.
-    share = (17.71 - centre[0]) / 12.64
+    share = (17.71 - center[0]) / 12.64
     assert_allclose(nose, share * G * mass, rtol=0.03)
     rates = landing.diagram.EvalTimeDerivatives(context).CopyToVector()
     assert np.abs(rates).max() < 1e-6

@@ -207,7 +207,7 @@ def test_both_sides_of_a_cut_feel_opposite_loads(
     )
     cuts = Cutter(structure).cuts(fore, [51, 52, 53])
     moved = Observation("acceleration", cuts.of_acceleration)
-    transient_response(structure, loads, {"centre": 1}, observers=[moved])
+    transient_response(structure, loads, {"center": 1}, observers=[moved])
     ahead = cuts.loads(moved.history, loads.node_id, mean_of_three(loads.load))[:, 0]
     behind = found.landing.sections["all behind the cut"][:, 1]
     size = np.abs(behind).max(axis=0)
@@ -292,9 +292,9 @@ def test_practices(
     by = done.table.set_index(["practice", "quantity"])
     assert (by.loc[HYBRID].error == 0).all()
     np.testing.assert_allclose(by.loc[RIGID].error, -0.5, rtol=1e-6)
-    # Rigid: acceleration of the centre from the total load at its peak.
-    centre = by.loc[(STATIC, "centre, z"), "value"]
-    assert centre == pytest.approx(4e4 / structure.weight.total, rel=0.1)
+    # Rigid: acceleration of the center from the total load at its peak.
+    center = by.loc[(STATIC, "center, z"), "value"]
+    assert center == pytest.approx(4e4 / structure.weight.total, rel=0.1)
     tip = by.loc[(STATIC, "right tip, z"), "value"]
     assert abs(tip) < abs(by.loc[(HYBRID, "right tip, z"), "value"])
 

@@ -51,7 +51,7 @@ def test_units_and_frames_do_not_matter(tmp_path: Path, form, forward: str) -> N
     structure = aircraft.structure()
     R_AB = rotation_AB(case.airframe.axes)
     check_gears(structure, aircraft, R_AB)  # refuses what cannot land
-    # Wheels stand on both sides of the centre of gravity, at one height.
+    # Wheels stand on both sides of the center of gravity, at one height.
     axles = np.array([gear.axles[0] for gear in aircraft.gears]) @ R_AB.T
     lowest = axles[:, 2] - [gear.tyre.radius for gear in aircraft.gears]
     assert np.ptp(lowest) < 2e-3
@@ -184,7 +184,7 @@ def test_a_stick_with_its_nose_in_x_and_z_down_can_land(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """mm-t-N, no damping, masses without inertia, few grids: the main gears stand
-    behind the centre of gravity, and the turning of grids asks for no small step.
+    behind the center of gravity, and the turning of grids asks for no small step.
     """
     down = CLOUD @ rotation_AB(Axes(forward="x", up="-z")) * 1e3
     lines = ["MAT1,1,71000.,,.33,2.8-9", "PBAR,1,1,9000.,4.+9,4.+9,4.+9"]

@@ -43,25 +43,25 @@ class ReadDeck:
 
     @cached_property
     def mirror(self) -> dict[int, int]:
-        """Grid id -> id of the grid on the other side (itself on the centre plane)."""
+        """Grid id -> id of the grid on the other side (itself on the center plane)."""
         points = np.round(self.model.position, 5) + 0.0
         at = {tuple(p): int(i) for i, p in zip(self.model.grid_id, points)}
         return {i: at[tuple(np.array(p) * FLIP + 0.0)] for p, i in at.items()}
 
     def whole_aircraft(self):
-        """Mass, centre and inertia of the deck with the extended gears."""
+        """Mass, center and inertia of the deck with the extended gears."""
         mass, cg, six = mass_properties(self.bdf)
         ixx, iyy, izz, ixy, ixz, iyz = six
         inertia = np.array([[ixx, -ixy, -ixz], [-ixy, iyy, -iyz], [-ixz, -iyz, izz]])
         bodies = [(mass, cg, inertia)]
         bodies += [(*gear_mass_center(g), np.zeros((3, 3))) for g in self.model.gears]
         total = sum(m for m, _, _ in bodies)
-        centre = np.sum([m * c for m, c, _ in bodies], axis=0) / total
+        center = np.sum([m * c for m, c, _ in bodies], axis=0) / total
         whole = np.zeros((3, 3))
         for m, c, own in bodies:
-            arm = c - centre
+            arm = c - center
             whole += own + m * (arm @ arm * np.eye(3) - np.outer(arm, arm))
-        return total, centre, whole
+        return total, center, whole
 
 
 @cache

@@ -112,9 +112,9 @@ def test_skin_covers_the_hull_but_for_its_openings(alone, bdf):
     covered = sum(e.Area() for e in elements)
     assert covered == pytest.approx(2 * panels[hull.present].sum(), rel=1e-5)
     for e in elements[::7]:
-        centre = e.Centroid()
-        section = fuselage_section(centre[0])[0]
-        outward = centre - [centre[0], 0.0, section[1:].mean()]
+        center = e.Centroid()
+        section = fuselage_section(center[0])[0]
+        outward = center - [center[0], 0.0, section[1:].mean()]
         assert e.Normal() @ outward > 0.5 * np.linalg.norm(outward)
 
 

@@ -81,7 +81,7 @@ def test_reference_nodes_are_free_for_a_reduction(pre):
     assert dependent.sum() == 9
 
 
-def test_topology_1_holds_the_gears_on_the_centre_box():
+def test_topology_1_holds_the_gears_on_the_center_box():
     one, two = (build("pre", t) for t in ("1", "2"))
     assert len(one.grid_id) == len(two.grid_id)
     assert one.deck != two.deck

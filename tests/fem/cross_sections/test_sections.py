@@ -134,21 +134,21 @@ def test_library_and_finite_elements_agree_on_the_torsion_of_thin_walls(kind):
     )
 
 
-def test_shear_centre_of_a_thin_channel():
+def test_shear_center_of_a_thin_channel():
     b, h, t = 0.1, 0.2, 0.001
     c = section("CHAN", (b + t / 2, h + t, t, t)).constants
     # From the middle of the web, away from the flanges: 3 b^2 / (6 b + h).
     e = 3 * b**2 / (6 * b + h)
-    from_web = c.centroid[1] + c.shear_centre[1] - t / 2
+    from_web = c.centroid[1] + c.shear_center[1] - t / 2
     assert from_web == pytest.approx(-e, rel=5e-3)
-    assert c.shear_centre[0] == 0.0
+    assert c.shear_center[0] == 0.0
 
 
-def test_shear_centre_of_a_tee_and_an_angle_is_where_the_walls_meet():
+def test_shear_center_of_a_tee_and_an_angle_is_where_the_walls_meet():
     tee = section("T", (0.1, 0.1, 0.002, 0.002)).constants
-    assert tee.centroid[0] + tee.shear_centre[0] == pytest.approx(0.099, abs=2e-4)
+    assert tee.centroid[0] + tee.shear_center[0] == pytest.approx(0.099, abs=2e-4)
     angle = section("L", (0.1, 0.1, 0.002, 0.002)).constants
-    corner = angle.centroid + angle.shear_centre
+    corner = angle.centroid + angle.shear_center
     np.testing.assert_allclose(corner, [0.001, 0.001], atol=2e-4)
 
 

@@ -177,8 +177,8 @@ def test_hemisphere_with_hole():
     assert hemisphere(16, 3) == pytest.approx(0.992, abs=3e-3)
 
 
-def plate_centre(n, b, *, clamped, point):
-    """Quarter of MacNeal and Harder's rectangular plate, deflection of the centre."""
+def plate_center(n, b, *, clamped, point):
+    """Quarter of MacNeal and Harder's rectangular plate, deflection of the center."""
     points, conn = grid(n, n)
     xyz = np.c_[points * [1.0, 0.5 * b], np.zeros(len(points))]
     model = Model(xyz, [shells(xyz, conn, isotropic_property(1.7472e7, 0.3, 1e-4))])
@@ -210,7 +210,7 @@ def plate_centre(n, b, *, clamped, point):
 )  # fmt: skip
 def test_rectangular_plate_converges(clamped, point, b, reference):
     found = [
-        plate_centre(n, b, clamped=clamped, point=point) / reference for n in (4, 16)
+        plate_center(n, b, clamped=clamped, point=point) / reference for n in (4, 16)
     ]
     # 1.26 and 2.56 have three digits; aspect 5 with a point load is hard.
     assert found[0] == pytest.approx(1.0, abs=0.13 if b == 10 and point else 0.06)

@@ -22,8 +22,8 @@ def tip(block, force: np.ndarray) -> np.ndarray:
 
 
 WAYS = {
-    "centre by a vector": bend("0.,-1.,0.,1"),
-    "centre by a grid": bend("3,,,1"),
+    "center by a vector": bend("0.,-1.,0.,1"),
+    "center by a grid": bend("3,,,1"),
     "tangent": bend("1.,0.,0.,2"),
     "radius": bend("10.,0.,0.,3", rb="10."),
     "angle": bend("10.,0.,0.,4", theta="90."),

@@ -95,7 +95,7 @@ def rows_of(table, element):
 
 
 @pytest.mark.parametrize("kind", ["force", "stress", "strain"])
-def test_shell_results_at_centre_and_corners(model, static, kind):
+def test_shell_results_at_center_and_corners(model, static, kind):
     u = static.displacements[1].data[0].astype(float)
     compared = 0
     for block in model[1]:
@@ -137,7 +137,7 @@ def test_ply_stresses(model, static):
 
 @pytest.mark.parametrize("kind", ["stress", "strain"])
 @pytest.mark.parametrize("card", ["CHEXA", "CPENTA", "CTETRA"])
-def test_solid_results_at_centre_and_corners(model, static, card, kind):
+def test_solid_results_at_center_and_corners(model, static, card, kind):
     u = static.displacements[1].data[0].astype(float)
     (block,) = [b for b in model[1] if b.card == card]
     method = block.stresses if kind == "stress" else block.strains

@@ -76,7 +76,7 @@ def test_mass_is_that_of_the_area_lumped_and_coupled(model, card):
         np.testing.assert_allclose(body[:3, :3], total * np.eye(3), atol=1e-12 * total)
     lumped = np.diag(block.mass(coupled=False)[0]).reshape(-1, 6)
     assert (lumped > 0.0)[:, :3].all()
-    # The centre of gravity hardly depends on the lumping.
+    # The center of gravity hardly depends on the lumping.
     np.testing.assert_allclose(bodies[0][:3, 3:], bodies[1][:3, 3:], atol=0.02 * total)
 
 

@@ -199,7 +199,7 @@ def test_one_tapered_beam_equals_many_prismatic_ones(model):
 
 
 def test_neutral_axis_offset_couples_axial_force_and_bending(model):
-    """An axial force at the shear centre bends by its arm about the neutral axis."""
+    """An axial force at the shear center bends by its arm about the neutral axis."""
     built = model(
         BEAM_ALONG_X
         + "CBEAM,1,1,1,2,0.,1.,0.\nPBEAM,1,1,.01,4.-6,9.-6,,5.-6\n,\n,0.,0.\n"
@@ -216,14 +216,14 @@ def test_neutral_axis_offset_couples_axial_force_and_bending(model):
     u = np.zeros(12)
     u[6:] = tip
     ends = stress.derive(np.einsum("ecn,n->ec", stress.matrix, u))
-    # Points C-F all lie at the shear centre: N/A and the bending of its offset.
+    # Points C-F all lie at the shear center: N/A and the bending of its offset.
     expected = 1 / 0.01 + 0.05**2 / 4e-6 + 0.03**2 / 9e-6
     assert ends == pytest.approx(np.full((1, 12), expected), rel=1e-9)
 
 
 @pytest.mark.parametrize("coupmass", [-1, 1])
 @pytest.mark.parametrize("card", ["bar", "beam", "rod"])
-def test_mass_and_its_centre_are_exact(model, card, coupmass):
+def test_mass_and_its_center_are_exact(model, card, coupmass):
     bulk = {
         "bar": "CBAR,1,1,1,2,0.,1.,0.\n,,,0.,.1,.2,0.,.1,.2\n"
         "PBAR,1,1,.01,4.-6,9.-6,5.-6,3.",

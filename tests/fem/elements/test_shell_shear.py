@@ -98,8 +98,8 @@ def test_bending_along_a_line_is_that_of_the_laminates_transverse_shear():
     xyz = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
     _, section = section_of(xyz, prop)
     direction = np.array([[[1.0, 0.0], [0.0, 1.0]]])
-    centred = cross_ply()
-    a, b, d = centred.membrane, centred.coupling, centred.bending
+    centered = cross_ply()
+    a, b, d = centered.membrane, centered.coupling, centered.bending
     expected = np.diag(d) - np.diag(b) ** 2 / np.diag(a)
     np.testing.assert_allclose(
         bending_along(section, direction)[0], expected[:2], rtol=1e-10

@@ -221,21 +221,21 @@ def test_offset_equals_rigid_links(corners):
     conn = np.arange(corners)[None]
     prop = isotropic_property(7e10, 0.3, 0.02)
     offset = shells(xyz, conn, prop, offset=0.3, k6rot=0.0).stiffness()[0]
-    centred = shells(xyz, conn, prop, k6rot=0.0).stiffness()[0]
+    centered = shells(xyz, conn, prop, k6rot=0.0).stiffness()[0]
     link = np.eye(6)
     link[0, 4], link[1, 3] = 0.3, -0.3
     links = np.kron(np.eye(corners), link)
     np.testing.assert_allclose(
-        offset, links.T @ centred @ links, atol=1e-9 * abs(offset).max()
+        offset, links.T @ centered @ links, atol=1e-9 * abs(offset).max()
     )
 
 
 def test_laminate_offset_by_z0_equals_offset_of_the_element():
     xyz = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
     conn = np.arange(4)[None]
-    centred, raised = laminated(symmetric=True), laminated(symmetric=True, z0=0.0)
-    total = centred.thickness
-    one = shells(xyz, conn, centred, offset=0.5 * total, k6rot=0.0)
+    centered, raised = laminated(symmetric=True), laminated(symmetric=True, z0=0.0)
+    total = centered.thickness
+    one = shells(xyz, conn, centered, offset=0.5 * total, k6rot=0.0)
     two = shells(xyz, conn, raised, k6rot=0.0)
     np.testing.assert_allclose(
         one.stiffness(), two.stiffness(), atol=1e-9 * one.stiffness().max()
@@ -344,7 +344,7 @@ def test_drilling_acts_about_the_normal_of_the_grid():
 @settings(max_examples=30, deadline=None)
 @given(seed=st.integers(0, 10**6), warp=st.floats(-0.2, 0.2))
 def test_sides_of_a_warped_quadrilateral_stretch_in_a_linear_field(seed, warp):
-    """u = H x: the mean of t . H t over opposite sides t is the strain at the centre.
+    """u = H x: the mean of t . H t over opposite sides t is the strain at the center.
 
     Rotations of the grids play no part, neither does a rotation of the whole.
     """

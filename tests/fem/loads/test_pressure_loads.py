@@ -38,7 +38,7 @@ def test_uniform_pressure_on_a_triangle(loaded):
         np.testing.assert_allclose(result.at(grid)[2], -5.0, atol=1e-14)
 
 
-def test_bilinear_pressure_has_its_centre_of_pressure(loaded):
+def test_bilinear_pressure_has_its_center_of_pressure(loaded):
     # p = 1 + x + 2 y + 3 x y / ... given by its corners, which is all there is.
     bulk = "CQUAD4,1,1,1,2,3,4\nPLOAD4,1,1,1.,3.,9.,7.\n"
     result = loaded(SQUARE + bulk).resultant()
@@ -140,11 +140,11 @@ def test_pressure_all_round_a_solid_has_no_resultant(tmp_path, card, quadratic):
 @pytest.mark.parametrize("card", SHAPES)
 def test_pressure_pushes_inwards(tmp_path, card, quadratic):
     points, _ = solid(tmp_path, card, quadratic, ALL_FACES[card][:1])
-    centre = points.xyz[: len(SHAPES[card])].mean(axis=0)
+    center = points.xyz[: len(SHAPES[card])].mean(axis=0)
     for face in ALL_FACES[card]:
         _, forces = solid(tmp_path, card, quadratic, [face])
         loaded = np.linalg.norm(forces, axis=1) > 1e-9
-        towards = centre - points.xyz[loaded].mean(axis=0)
+        towards = center - points.xyz[loaded].mean(axis=0)
         assert forces.sum(axis=0) @ towards > 0.0
 
 

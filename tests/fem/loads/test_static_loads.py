@@ -81,7 +81,7 @@ def test_weight_is_mass_times_gravity_also_with_offsets_and_wtmass(loaded):
     bulk = BASE + MASS + "PARAM,WTMASS,.5\nGRAV,1,,9.81,0.,0.,-2.\n"
     force = loaded(bulk).resultant()
     np.testing.assert_allclose(force[:3], [0, 0, -0.5 * 5 * 9.81 * 2], atol=1e-12)
-    # Gravity acts at the centre of the offset mass.
+    # Gravity acts at the center of the offset mass.
     sideways = loaded(BASE + "CONM2,1,2,,3.,.0,.0,.5\nGRAV,1,,1.,1.,0.,0.\n")
     np.testing.assert_allclose(sideways.at(2), [3, 0, 0, 0, 1.5, 0], atol=1e-14)
 
@@ -150,11 +150,11 @@ def test_rotation_of_a_body_is_that_of_its_points(loaded):
     """RFORCE with spin and angular acceleration: CONM2 against four point masses."""
     places = np.array([[2.0, 0.5, 1.0], [1.0, -1.0, 2.0], [0.3, 2.0, 0.4], [3, 1, -1]])
     mass = np.array([1.0, 2.0, 3.0, 1.5])
-    centre = mass @ places / mass.sum()
-    arm = places - centre
+    center = mass @ places / mass.sum()
+    arm = places - center
     inertia = np.einsum("p,pk,pk->", mass, arm, arm) * np.eye(3)
     inertia -= np.einsum("p,pi,pj->ij", mass, arm, arm)
-    d = centre - [1.0, 2.0, 3.0]
+    d = center - [1.0, 2.0, 3.0]
     i = [inertia[0, 0], -inertia[1, 0], inertia[1, 1], -inertia[2, 0], -inertia[2, 1],
          inertia[2, 2]]  # fmt: skip
     spin = "RFORCE,1,1,,.4,1.,0.5,2.\n,.7\n"

@@ -73,7 +73,7 @@ def test_products_of_inertia_have_nastrans_sign(model):
 
 
 def test_mass_in_one_direction_only_and_wtmass(model):
-    """A scalar mass in T1 counts for x alone, with its own centre."""
+    """A scalar mass in T1 counts for x alone, with its own center."""
     built = model(
         "PARAM,WTMASS,.1\nGRID,1,,0.,0.,0.\nGRID,2,,0.,4.,0.\nCONM2,1,1,,3.\n"
         "CMASS2,2,1.,2,1"

@@ -120,7 +120,7 @@ def test_statics(run, suffix, kind):
 
 @pytest.mark.parametrize("word", ["CORNER", "BILIN", "CENTER"])
 def test_corner_stresses_through_the_command_line(run, references, tmp_path, word):
-    """STRESS(CORNER): the centre and four corners, NX's figures; CENTER: the first."""
+    """STRESS(CORNER): the center and four corners, NX's figures; CENTER: the first."""
     _, theirs = run("static_solid_shell_bar")
     folder = references / "solid_shell_bar"
     text = (folder / "static_solid_shell_bar.bdf").read_text()

@@ -16,7 +16,7 @@ from systems.tools.table import Table
 from tests.systems.synthetic_body import aircraft_body
 
 G, V, MASS, INERTIA = 9.81, 67.0, 7e4, 3e6
-# Wing to port and starboard, a little aft of the centre of gravity; tail.
+# Wing to port and starboard, a little aft of the center of gravity; tail.
 X_WING, X_TAIL = 0.4, 17.0
 WING = Surface(nodes=[1, 2], shares=[0.5, 0.5], area=120.0, slope=5.0)
 TAIL = Surface(nodes=[3], shares=[1.0], area=30.0, slope=4.0)
@@ -90,7 +90,7 @@ def test_heave_and_pitch_are_those_of_the_hand_model():
 
     def rates(_, x):
         rise, theta, turn, washed = x
-        # Aft of the centre of gravity a nose that rises lets the node sink.
+        # Aft of the center of gravity a nose that rises lets the node sink.
         of_wing = theta - (rise - X_WING * turn) / V
         of_tail = theta - (rise - X_TAIL * turn) / V - washed
         lifting, steady = wing * of_wing, MASS * G

@@ -32,7 +32,7 @@ def test_strut_force_extends_the_strut_and_brake_torque_turns_the_wheel():
     assert_allclose(tau, expected)
 
 
-def test_tire_wrenches_act_at_the_wheel_centres():
+def test_tire_wrenches_act_at_the_wheel_centers():
     plant, wheels, _, _, system, context = _forces()
     forces = system.GetOutputPort("spatial_forces").Eval(context)
     assert [f.body_index for f in forces] == [w.index() for w in wheels.values()]

@@ -53,7 +53,7 @@ def test_angle_inverts_the_stroke(stroke, mirror):
     assert abs(angle) > 0.9 * stroke
 
 
-def test_reach_is_the_dead_centre():
+def test_reach_is_the_dead_center():
     geometry = LeverGeometry.between(UPPER, LOWER, AXIS)
     end = geometry.angle(geometry.reach * (1 - 1e-12))
     assert abs(geometry.ratio(end)) < 1e-5

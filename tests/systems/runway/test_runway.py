@@ -62,7 +62,7 @@ def test_profiles_have_their_heights():
 
 
 def wheel_circle_distance(runway, p, a):
-    """Least distance in the wheel's plane, by sampling lines through its centre."""
+    """Least distance in the wheel's plane, by sampling lines through its center."""
     p, a = np.array(p), np.array(a)
     along = np.cross(a, [0.0, 0.0, 1.0])
     along /= np.linalg.norm(along)

@@ -13,7 +13,7 @@ UP, AXLE = np.array([0.0, 0.0, 1.0]), np.array([0.0, 1.0, 0.0])
 
 
 def _at_ground(force, radius):
-    """Wrench at the wheel's centre of a force at the ground below it."""
+    """Wrench at the wheel's center of a force at the ground below it."""
     return np.concatenate([np.cross([0.0, 0.0, -radius], force), force])
 
 

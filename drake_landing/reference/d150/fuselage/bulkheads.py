@@ -21,7 +21,7 @@ class Disc:
 
     Attributes:
         rings: (k + 1, n + 1, 2) twins from the skin inward to the square's outline.
-        core: (q + 1, 2 q + 1, 2) twins of the square from the centre plane outward,
+        core: (q + 1, 2 q + 1, 2) twins of the square from the center plane outward,
             from the top down; its outline is the last ring.
     """
 
@@ -58,13 +58,13 @@ def _disc(hull: Hull, part: str, row: int, count: int, dome_radius: float) -> Di
     if n % 4:
         raise ValueError(f"{n} elements from crown to keel, expected a multiple of 4")
     q = n // 4
-    centre = (rim[0] + rim[-1]) / 2 * (1.0, 0.0, 1.0)
-    outline = centre + _square(rim - centre)
+    center = (rim[0] + rim[-1]) / 2 * (1.0, 0.0, 1.0)
+    outline = center + _square(rim - center)
     core = _transfinite(outline, q)
     share = np.linspace(0.0, 1.0, count + 1)[1:-1, None, None]
     between = rim + share * (outline - rim)
     for p in (core, between):
-        p[..., 0] += _bulge(p, rim, centre, dome_radius)
+        p[..., 0] += _bulge(p, rim, center, dome_radius)
     core_ids = hull.halves.grids(part, core)
     path = [core_ids[a, 0] for a in range(q)]
     path += [core_ids[q, b] for b in range(2 * q)]
@@ -92,7 +92,7 @@ def _transfinite(outline: Float64, q: int) -> Float64:
     top, side, bottom = outline[: q + 1], outline[q : 3 * q + 1], outline[3 * q :][::-1]
     u = np.linspace(0.0, 1.0, q + 1)[:, None, None]
     v = np.linspace(0.0, 1.0, 2 * q + 1)[None, :, None]
-    inner = top[0] + v[0] * (bottom[0] - top[0])  # the centre line
+    inner = top[0] + v[0] * (bottom[0] - top[0])  # the center line
     edges = (1 - v) * top[:, None] + v * bottom[:, None]
     sides = (1 - u) * inner[None] + u * side[None]
     corners = (
@@ -104,12 +104,12 @@ def _transfinite(outline: Float64, q: int) -> Float64:
     return edges + sides - corners
 
 
-def _bulge(p: Float64, rim: Float64, centre: Float64, radius: float) -> Float64:
+def _bulge(p: Float64, rim: Float64, center: Float64, radius: float) -> Float64:
     """Aftward height of a spherical dome over its rim; a flat one has radius 0."""
     if not radius:
         return np.zeros(p.shape[:-1])
     half, high = rim[:, 1].max(), (rim[0, 2] - rim[-1, 2]) / 2
-    share = ((p[..., 1]) / half) ** 2 + ((p[..., 2] - centre[2]) / high) ** 2
+    share = ((p[..., 1]) / half) ** 2 + ((p[..., 2] - center[2]) / high) ** 2
     edge = (half + high) / 2
     return np.sqrt(radius**2 - edge**2 * share) - np.sqrt(radius**2 - edge**2)
 
@@ -119,7 +119,7 @@ def _stiffeners(disc: Disc, vertical: int, horizontal: int) -> list[list[Int64]]
 
     Args:
         disc: the bulkhead.
-        vertical: on each side of the centre line, where there is one more.
+        vertical: on each side of the center line, where there is one more.
         horizontal: their number.
     """
     q, n = disc.core.shape[0] - 1, disc.rings.shape[1] - 1

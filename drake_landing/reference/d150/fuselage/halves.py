@@ -1,7 +1,7 @@
 """A bench for structure that is its own mirror image: two halves at one stroke.
 
-A twin is a pair (starboard id, port id) of grids; on the centre plane both are the same
-grid. Everything is written for the starboard half and mirrored; what lies in the centre
+A twin is a pair (starboard id, port id) of grids; on the center plane both are the same
+grid. Everything is written for the starboard half and mirrored; what lies in the center
 plane is written once.
 """
 

@@ -1,7 +1,7 @@
 """Keel beam: a box below the wing, from the forward hold past the main gear bay.
 
 Its webs stand on the skin's keel lines; its top is a sheet of its own before and behind
-the wing, and the lower cover of the centre wing box under it.
+the wing, and the lower cover of the center wing box under it.
 """
 
 import numpy as np

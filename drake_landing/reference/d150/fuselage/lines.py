@@ -1,7 +1,7 @@
 """Lines of grids along the fuselage, from crown to keel of the starboard half.
 
 The named lines run where something meets the skin: window belt, passenger floor, upper
-cover of the centre wing box, cargo floor, sides of the keel beam. The others divide the
+cover of the center wing box, cargo floor, sides of the keel beam. The others divide the
 arcs between them evenly. Angles are those of the ellipse's parameter from the crown.
 """
 

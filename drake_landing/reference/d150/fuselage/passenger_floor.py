@@ -1,7 +1,7 @@
 """Passenger floor: crossbeams at the frames, sandwich panels and seat rails, struts.
 
 Crossbeams lie below the panels, whose grids follow theirs at the frames; between two
-frames the panels have rows of their own. Over the centre wing box and the main gear bay
+frames the panels have rows of their own. Over the center wing box and the main gear bay
 the crossbeams are deep, and stiffen the pressure deck.
 """
 
@@ -32,7 +32,7 @@ class PassengerFloor:
     beams: dict[int, Int64]
 
     def beam(self, row: int) -> list[Int64]:
-        """Twins of a crossbeam from the centre plane to the skin."""
+        """Twins of a crossbeam from the center plane to the skin."""
         return [t for t in self.beams[row] if t[0]]
 
 

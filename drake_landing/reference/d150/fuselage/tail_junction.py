@@ -72,7 +72,7 @@ def _pivots(hull: Hull, meshes: Mapping[str, BoxMesh]) -> None:
 
 
 def _jack(hull: Hull, reference: Reference) -> None:
-    """A beam across the frame carries the jack, whose yoke holds the centre ribs."""
+    """A beam across the frame carries the jack, whose yoke holds the center ribs."""
     halves, tail = hull.halves, facts("tails")["tailplane"]
     row = hull.rows.at(facts("fuselage")["tailplane_jack_frame"])
     right, left = reference["tailplane_right"], reference["tailplane_left"]

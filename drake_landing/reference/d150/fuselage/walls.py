@@ -1,6 +1,6 @@
 """Walls across the lower fuselage: beside the wing's spars, and behind the main bay.
 
-At the main frames the spar webs of the centre wing box are the wall; sheets close the
+At the main frames the spar webs of the center wing box are the wall; sheets close the
 gaps above, to the floor, and below, to the skin.
 """
 
@@ -23,7 +23,7 @@ _CLOSE = 0.04  # m: a skin grid so near to the spar's edge stands on it
 def add_spar_wall(
     hull: Hull, floor: PassengerFloor, frame: str, face: str, fit: Fit
 ) -> None:
-    """Sheets from a spar of the centre box up to the floor and down to the skin.
+    """Sheets from a spar of the center box up to the floor and down to the skin.
 
     Args:
         hull: the skin.

@@ -24,7 +24,7 @@ class _Face:
 
 
 class Fit:
-    """Joins grids to the centre wing box.
+    """Joins grids to the center wing box.
 
     Args:
         halves: the bench.
@@ -51,7 +51,7 @@ class Fit:
         return float(column[-1, 2]), float(column[0, 2])
 
     def height(self, face: str, x: float) -> float:
-        """z of the `upper` or `lower` cover on the centre plane at x, m."""
+        """z of the `upper` or `lower` cover on the center plane at x, m."""
         line = self._box.p[0, :, -1 if face == "upper" else 0]
         return float(np.interp(x, line[:, 0], line[:, 2]))
 
@@ -72,7 +72,7 @@ class Fit:
 
 
 def _face(right: BoxMesh, left: BoxMesh, at: tuple) -> _Face:
-    """The elements between the centre plane and the side-of-body rib."""
+    """The elements between the center plane and the side-of-body rib."""
     end = int(right.ribs[np.searchsorted(right.stations.rib[right.ribs], 3)]) + 1
     ids = [_quads(mesh.ids[:end][at]) for mesh in (right, left)]
     p = right.p[:end][at]

@@ -1,4 +1,4 @@
-"""The centre wing box in the fuselage: skin on its upper cover, walls beside its spars.
+"""The center wing box in the fuselage: skin on its upper cover, walls beside its spars.
 
 The skin ends on the upper cover, the main frames and the walls at C36 and C42 end on
 the spars, the keel beam on the lower cover, the floor's struts stand on the upper one.
