@@ -2,9 +2,7 @@
 
 import importlib.metadata
 import platform
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import pandas as pd
 
@@ -34,18 +32,3 @@ def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:
         plain[name] = [cell(v) if isinstance(v, str) else v for v in plain[name]]
     plain.columns = [cell(str(name)) for name in plain.columns]
     write_aside(path, lambda to: plain.to_csv(to, index=index, float_format="%.9g"))
-
-
-def relative_to_case(found: Any, context: Mapping[str, Any] | None) -> Any:
-    """A path, several, or none, relative to the folder of the case that names them.
-
-    Args:
-        found: what the case has.
-        context: of the validation; its `folder` is that of the case, or missing.
-    """
-    folder = (context or {}).get("folder")
-    if not folder or found is None:
-        return found
-    if isinstance(found, tuple):
-        return tuple(Path(folder, path) for path in found)
-    return Path(folder, found)

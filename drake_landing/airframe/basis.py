@@ -287,9 +287,7 @@ def _solve(structure: Structure, select: Selection, progress: Progress | None) -
             progress=progress,
         )
 
-    found = structure.guarded(solve, dynamic=True, error=ModesError)
-    assert isinstance(found, Modes)
-    return found
+    return structure.guarded(solve, dynamic=True, error=ModesError)
 
 
 def _reduce(structure: Structure, airframe: Airframe, kept: Rows) -> Reduction:
@@ -305,9 +303,7 @@ def _reduce(structure: Structure, airframe: Airframe, kept: Rows) -> Reduction:
             structure.stiffness, structure.mass, structure.damping, kept, **arguments
         )
 
-    found = structure.guarded(reduce, dynamic=False, error=SingularMatrixError)
-    assert isinstance(found, Reduction)
-    return found
+    return structure.guarded(reduce, dynamic=False, error=SingularMatrixError)
 
 
 def _without_rounding(

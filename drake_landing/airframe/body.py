@@ -25,6 +25,7 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.progress import Reporter, Silent
 from fem.errors import InputError
 from fem.geometry.points import Points
+from fem.geometry.rigid_motion import rigid_motion
 from fem.model.structure import Structure
 from fem.model.weight import rigid_mass_properties
 from systems.airframe.modal_body import ModalBody
@@ -245,12 +246,7 @@ def _rigid(structure: Structure, ids: Int64) -> Float64:
     """(k, 6, 6) motion of grids by unit rigid motions, basic axes."""
     points = structure.points
     arm = points.xyz[points.rows(ids)] - structure.rigid_mass.center
-    x, y, z = arm.T
-    zero = np.zeros_like(x)
-    motion = np.tile(np.eye(6), (len(ids), 1, 1))
-    turn = np.stack([zero, z, -y, -z, zero, x, y, -x, zero], axis=1)
-    motion[:, :3, 3:] = turn.reshape(-1, 3, 3)
-    return motion
+    return rigid_motion(arm)
 
 
 def _near(points: Points, node: int) -> str:

@@ -68,7 +68,7 @@ def run_block(task: BlockTask) -> tuple[int, ...]:
     )
     _integrate(full, time, loads, watch, task.scheme)
     for case, (number, end, key) in enumerate(zip(task.numbers, task.ends, task.keys)):
-        state = watch.state.of_case(slice(case, case + 1))
+        state = watch.state.take(slice(None), slice(case, case + 1))
         with written_hdf5(confirmed_file(task.folder, number)) as file:
             file.attrs.update(case=number, key=key, until=end)
             found = {

@@ -14,21 +14,17 @@ together (latin hypercube), `samples` times for every combination.
 """
 
 import math
-from pathlib import Path
 from typing import Annotated, Self
 
 from pydantic import (
     Field,
-    PrivateAttr,
-    ValidationInfo,
-    field_validator,
     model_validator,
 )
 
 from drake_landing.campaign.axes import Axis, Distribution, combined_values
-from drake_landing.case.field_lines import Places
 from drake_landing.case.labels import OneLine
-from drake_landing.case.section import Section, number
+from drake_landing.case.section import Document, Section, number
+from drake_landing.input_paths import InputFile
 
 MOST = 200_000  # cases; more would be described for an hour before the first flies
 _PATH = r"^[A-Za-z_][\w*]*(\.[\w*-]+)+$"
@@ -37,20 +33,13 @@ _PATH = r"^[A-Za-z_][\w*]*(\.[\w*-]+)+$"
 class Table(Section):
     """Rows of measured values that belong together, drawn at random."""
 
-    file: Path = Field(description="CSV with a header, relative to the campaign file")
+    file: InputFile = Field(
+        description="CSV with a header, relative to the campaign file"
+    )
     columns: dict[str, str] = Field(
         min_length=1, description="column of the file -> field of the case"
     )
     source: OneLine = Field(description="where the rows come from")
-
-    @field_validator("file", mode="after")
-    @classmethod
-    def _there(cls, file: Path, info: ValidationInfo) -> Path:
-        folder = (info.context or {}).get("folder")
-        path = Path(folder, file) if folder else file
-        if not path.is_file():
-            raise ValueError(f"found {path}, no such file")
-        return path
 
 
 class Confirm(Section):
@@ -88,7 +77,7 @@ class Fatigue(Section):
     source: OneLine = Field(description="where the curve comes from")
 
 
-class Campaign(Section):
+class Campaign(Document):
     """Many landings of one aircraft."""
 
     name: str = Field(
@@ -96,7 +85,7 @@ class Campaign(Section):
         description="names the campaign and its folder: letters, digits, . _ -",
     )
     title: OneLine = Field(default="", description="one line for the page")
-    base: Path = Field(description="case file, relative to the campaign file")
+    base: InputFile = Field(description="case file, relative to the campaign file")
     axes: dict[Annotated[str, Field(pattern=_PATH)], Axis] = Field(
         default={},
         description="field of the case, with * for any name in a list -> its values",
@@ -120,27 +109,6 @@ class Campaign(Section):
         le=100,
         description="elements of a component whose histories are counted for fatigue",
     )
-    _places: Places = PrivateAttr(default=Places())
-
-    @property
-    def places(self) -> Places:
-        """Where its fields were written."""
-        return self._places
-
-    def written_at(self, places: Places) -> Self:
-        """The same campaign, with the places of its fields."""
-        campaign = self.model_copy()
-        campaign._places = places
-        return campaign
-
-    @field_validator("base", mode="after")
-    @classmethod
-    def _there(cls, base: Path, info: ValidationInfo) -> Path:
-        folder = (info.context or {}).get("folder")
-        path = Path(folder, base) if folder else base
-        if not path.is_file():
-            raise ValueError(f"found {path}, no such case file")
-        return path
 
     @model_validator(mode="after")
     def _sampled(self) -> Self:

@@ -1,11 +1,9 @@
 """The airframe of a case: a deck, a built-in aircraft or matrices, and its modes."""
 
-from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Literal, Self
 
 from pydantic import (
     Field,
-    ValidationInfo,
     field_validator,
     model_validator,
 )
@@ -18,7 +16,7 @@ from drake_landing.case.mass_cases import MassCase, mass_case_of
 from drake_landing.case.mode_selection import Selection, SelectionText
 from drake_landing.case.section import Section, number
 from drake_landing.case.steady import Steady
-from drake_landing.files import relative_to_case
+from drake_landing.input_paths import InputPath
 from drake_landing.parametric import registered
 from fem.deck.text.source import include_reach
 from fem.errors import nearest
@@ -30,12 +28,12 @@ Basis = Literal["full-modes", "craig-bampton", "guyan"]
 class Matrices(Section):
     """Reduced matrices of the user's own, instead of a deck: basic frame."""
 
-    files: tuple[Path, ...] = Field(
+    files: tuple[InputPath, ...] = Field(
         description="DMIG (punch), OUTPUT4 or HDF5 of MSC Nastran, relative to the "
         "case file",
         min_length=1,
     )
-    grids: Path = Field(
+    grids: InputPath = Field(
         description="CSV table of the interface grids in the order of the matrices: "
         "id, x, y, z [, components]",
     )
@@ -46,11 +44,6 @@ class Matrices(Section):
         default="RRED",
         description="name of the motion of grids without components",
     )
-
-    @field_validator("files", "grids", mode="after")
-    @classmethod
-    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
-        return relative_to_case(found, info.context)
 
 
 class Airframe(Section):
@@ -70,7 +63,7 @@ class Airframe(Section):
             "anyOf": [{"type": t} for t in ("string", "integer", "null")]
         },
     )
-    deck: Path | None = Field(
+    deck: InputPath | None = Field(
         default=None,
         description="Nastran bulk-data file, relative to the case file",
     )
@@ -119,7 +112,7 @@ class Airframe(Section):
         gt=0,
         le=5000,
     )
-    include_paths: tuple[Path, ...] = Field(
+    include_paths: tuple[InputPath, ...] = Field(
         default=(),
         description="folders that INCLUDE of the deck may read, beside its own",
     )
@@ -170,11 +163,6 @@ class Airframe(Section):
                 + nearest(model, names)
             )
         return model
-
-    @field_validator("deck", "include_paths", mode="after")
-    @classmethod
-    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
-        return relative_to_case(found, info.context)
 
     @model_validator(mode="after")
     def _one_source(self) -> Self:

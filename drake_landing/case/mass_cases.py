@@ -4,9 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal, Self
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from drake_landing.case.section import Section
+from drake_landing.input_paths import InputFile
 from fem.errors import InputError, nearest
 
 Span = tuple[int, int]
@@ -24,7 +25,7 @@ class Scaled(Section):
 class MassCase(Section):
     """One loading of the airframe, by its point masses (CONM2) or by another deck."""
 
-    deck: Path | None = Field(
+    deck: InputFile | None = Field(
         default=None, description="another deck, relative to the case file"
     )
     massset: int | None = Field(
@@ -32,7 +33,7 @@ class MassCase(Section):
         gt=0,
         description="MASSSET of the deck, which combines its BEGIN MASSID sections",
     )
-    add: Path | None = Field(
+    add: InputFile | None = Field(
         default=None, description="file of CONM2 that are added, relative to the case"
     )
     remove: tuple[int | Span, ...] = Field(
@@ -55,15 +56,6 @@ class MassCase(Section):
         "that must come out to cg_tolerance",
     )
     cg_tolerance: float = Field(default=0.05, gt=0, description="distance, m")
-
-    @field_validator("deck", "add", mode="after")
-    @classmethod
-    def _there(cls, path: Path | None, info: ValidationInfo) -> Path | None:
-        folder = (info.context or {}).get("folder")
-        path = Path(folder, path) if path and folder else path
-        if path and not path.is_file():
-            raise ValueError(f"found {path}, expected a file that is there")
-        return path
 
     @model_validator(mode="after")
     def _once(self) -> Self:

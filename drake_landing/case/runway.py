@@ -1,18 +1,17 @@
 """The runway of a scenario: surface, crown, and profiles of its height."""
 
-from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import (
     Discriminator,
     Field,
     Tag,
-    ValidationInfo,
     model_validator,
 )
 
 from drake_landing.case.section import Section, number
 from drake_landing.gears.fields import one_of
+from drake_landing.input_paths import InputFile
 from systems.runway.roughness import ISO_8608
 from systems.runway.runway_profile import FOOT, MeasuredProfile, measured_tracks
 
@@ -48,7 +47,7 @@ class Measured(Section):
     """A measured profile, of the whole width or of a left and a right track."""
 
     kind: Literal["measured"]
-    file: Path = Field(
+    file: InputFile = Field(
         description="distance and height, or distance, height of the left and of the "
         "right track, in columns; relative to the case file"
     )
@@ -65,12 +64,7 @@ class Measured(Section):
     )
 
     @model_validator(mode="after")
-    def _readable(self, info: ValidationInfo) -> Self:
-        folder = (info.context or {}).get("folder")
-        if folder:
-            object.__setattr__(self, "file", Path(folder, self.file))
-        if not self.file.is_file():
-            raise ValueError(f"no such file: {self.file}")
+    def _readable(self) -> Self:
         two = len(self.tracks) == 2
         if two and self.track_spacing is None:
             raise ValueError(

@@ -13,7 +13,6 @@ from pydantic import (
     ConfigDict,
     Discriminator,
     Field,
-    PrivateAttr,
     Tag,
     model_validator,
 )
@@ -22,11 +21,10 @@ from drake_landing.case.airframe import Airframe
 from drake_landing.case.bushing import Bushing
 from drake_landing.case.conditions import Conditions
 from drake_landing.case.design_values import with_design_values
-from drake_landing.case.field_lines import Places
 from drake_landing.case.labels import OneLine
 from drake_landing.case.parts import Parts
 from drake_landing.case.scenario import Scenario
-from drake_landing.case.section import Section
+from drake_landing.case.section import Document
 from drake_landing.case.simulation import Simulation, Transient
 from drake_landing.gears.data import AnyGear
 from fem.deck.text.source import include_reach
@@ -45,7 +43,7 @@ def _named_schema(schema: dict[str, Any]) -> None:
     schema["properties"] = {"$schema": named, **schema["properties"]}
 
 
-class Case(Section):
+class Case(Document):
     """One landing, from the deck to the comparison."""
 
     model_config = ConfigDict(json_schema_extra=_named_schema)
@@ -71,24 +69,12 @@ class Case(Section):
     transient: Transient = Transient()
     parts: Parts = Parts()
     conditions: Conditions = Conditions()
-    _places: Places = PrivateAttr(default=Places())
-
-    @property
-    def places(self) -> Places:
-        """Where its fields were written."""
-        return self._places
 
     @contextmanager
     def reading(self) -> Iterator[None]:
         """Errors within say file and line; INCLUDE reaches what the case adds."""
         with self.places.located(), include_reach(self.airframe.include_paths):
             yield
-
-    def written_at(self, places: Places) -> Self:
-        """The same case, with the places of its fields."""
-        case = self.model_copy()
-        case._places = places
-        return case
 
     @model_validator(mode="before")
     @classmethod

@@ -1,14 +1,33 @@
 """What the sections of a case file have in common."""
 
-from typing import Any
+from typing import Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, PrivateAttr
+
+from drake_landing.case.field_lines import Places
 
 
 class Section(BaseModel):
     """Frozen; unknown keys are errors."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class Document(Section):
+    """What a whole file says; its fields know where they were written."""
+
+    _places: Places = PrivateAttr(default=Places())
+
+    @property
+    def places(self) -> Places:
+        """Where its fields were written."""
+        return self._places
+
+    def written_at(self, places: Places) -> Self:
+        """The same document, with the places of its fields."""
+        document = self.model_copy()
+        document._places = places
+        return document
 
 
 def number(

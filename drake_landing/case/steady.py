@@ -1,12 +1,11 @@
 """Steady flight at 1 g, as a case gives it for a deck of the user's."""
 
-from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
-from pydantic import Field, ValidationInfo, field_validator, model_validator
+from pydantic import Field, model_validator
 
 from drake_landing.case.section import Section
-from drake_landing.files import relative_to_case
+from drake_landing.input_paths import InputPath
 
 
 class Steady(Section):
@@ -18,7 +17,7 @@ class Steady(Section):
         description="load set of the deck (LOAD, or FORCE, MOMENT, PLOAD4 ...): the "
         "external loads of steady flight, without weight; of `file` where one is given",
     )
-    file: Path | None = Field(
+    file: InputPath | None = Field(
         default=None,
         description="instead: a file of FORCE and MOMENT in the units of the deck, "
         "relative to the case file; with `load` one of its sets, else all of it",
@@ -32,11 +31,6 @@ class Steady(Section):
         description="of each node, >= 0, tilted such that the resultant passes the "
         "center of gravity; default equal",
     )
-
-    @field_validator("file", mode="after")
-    @classmethod
-    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
-        return relative_to_case(found, info.context)
 
     @model_validator(mode="after")
     def _one(self) -> Self:

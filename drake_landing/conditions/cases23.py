@@ -7,6 +7,7 @@ Landing: the factor n_g of the ground's reaction is that of a landing at
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -290,13 +291,13 @@ def jacking(aircraft: GroundAircraft) -> Iterator[BookCase]:
 def towing23(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """23.509: as 25.509 with F = 0.3 W: 0.225 W at each main gear, 0.15 W at 45°."""
     for case in towing(aircraft, whole=TOW * aircraft.weight):
-        yield _as(case, "23.509", case.name, case.loads)
+        yield replace(case, paragraph="23.509")
 
 
 def pivoting23(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """23.511(a): as 25.503."""
     for case in pivoting(aircraft):
-        yield _as(case, "23.511(a)", case.name, case.loads)
+        yield replace(case, paragraph="23.511(a)")
 
 
 def unequal_tires(aircraft: GroundAircraft) -> Iterator[BookCase]:
@@ -313,7 +314,7 @@ def unequal_tires(aircraft: GroundAircraft) -> Iterator[BookCase]:
                     GearLoad(gear=one.gear, at=one.at, force=one.force, moment=moment)
                 )
             name = f"60 % on {toward} wheels: {case.title}"
-            yield _as(case, "23.511(b)", name, tuple(loads))
+            yield replace(case, paragraph="23.511(b)", name=name, loads=tuple(loads))
     several = {g.name for g in aircraft.mains if g.wheels > 1}
     handling = [*side(aircraft)]
     handling += braked_roll(aircraft) if aircraft.braked else []
@@ -329,20 +330,9 @@ def unequal_tires(aircraft: GroundAircraft) -> Iterator[BookCase]:
             )
             for one in case.loads
         )
-        yield _as(case, "23.511(c)", f"one flat: {case.title}", loads)
-
-
-def _as(
-    case: BookCase, paragraph: str, name: str, loads: tuple[GearLoad, ...]
-) -> BookCase:
-    return BookCase(
-        paragraph=paragraph,
-        name=name,
-        loads=loads,
-        pose=case.pose,
-        lift=case.lift,
-        note=case.note,
-    )
+        yield replace(
+            case, paragraph="23.511(c)", name=f"one flat: {case.title}", loads=loads
+        )
 
 
 def _shared(aircraft: GroundAircraft, total: float) -> dict[Gear, float]:

@@ -1,6 +1,7 @@
 """CS-25 (14 CFR 25) ground handling with flat tires, 25.511(e) and (f)."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from drake_landing.conditions.ground import BookCase, GroundAircraft
 from drake_landing.conditions.rolling25 import braked_roll
@@ -22,17 +23,10 @@ def flat_tire_handling(aircraft: GroundAircraft) -> Iterator[BookCase]:
         braked = braked_roll(aircraft, kept) if aircraft.braked else ()
         cases = [*turning(aircraft, 0.5), *braked]
         for case in cases:
-            yield _renamed(case, "25.511(e)", f"{word} flat: {case.title}")
+            yield replace(
+                case, paragraph="25.511(e)", name=f"{word} flat: {case.title}"
+            )
         for case in towing(aircraft, tow):
-            yield _renamed(case, "25.511(f)", f"{word} flat: {case.title}")
-
-
-def _renamed(case: BookCase, paragraph: str, name: str) -> BookCase:
-    return BookCase(
-        paragraph=paragraph,
-        name=name,
-        loads=case.loads,
-        pose=case.pose,
-        lift=case.lift,
-        note=case.note,
-    )
+            yield replace(
+                case, paragraph="25.511(f)", name=f"{word} flat: {case.title}"
+            )

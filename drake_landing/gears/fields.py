@@ -1,7 +1,6 @@
 """Kinds of fields that the data of gears have, with their checks."""
 
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated, Any, Self
 
 from pydantic import (
@@ -9,7 +8,6 @@ from pydantic import (
     BaseModel,
     ConfigDict,
     Field,
-    ValidationInfo,
 )
 
 Vector3 = tuple[float, float, float]
@@ -32,15 +30,6 @@ Table = Annotated[
 ]
 
 
-def _existing(path: Path, info: ValidationInfo) -> Path:
-    """A file relative to the folder of the case."""
-    folder = (info.context or {}).get("folder")
-    path = Path(folder, path) if folder else path
-    if not path.is_file():
-        raise ValueError(f"found {path}, expected a file that is there")
-    return path
-
-
 def one_of(**given: object) -> None:
     """Checks that exactly one of some fields is given; None stands for absent.
 
@@ -54,9 +43,6 @@ def one_of(**given: object) -> None:
             f"{first}: found {' and '.join(found) or 'none'}, expected one of "
             f"{', '.join(given)}"
         )
-
-
-InputFile = Annotated[Path, AfterValidator(_existing)]
 
 
 class Data(BaseModel):

@@ -6,20 +6,17 @@ the leg alone: root clamped, shock absorber locked, wheels and bogie beam free t
 off the ground, one motion at a time. SI units except angles in degrees.
 """
 
-from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import (
     AfterValidator,
     Field,
-    ValidationInfo,
-    field_validator,
     model_validator,
 )
 
-from drake_landing.files import relative_to_case
 from drake_landing.gears.fields import Data, Positive, Table, Vector3
+from drake_landing.input_paths import InputPath
 
 _HIGHEST = 200.0  # Hz
 
@@ -186,12 +183,12 @@ class ReducedLeg(Data):
     stay those of the gear, and what the matrices have is compared.
     """
 
-    files: tuple[Path, ...] = Field(
+    files: tuple[InputPath, ...] = Field(
         min_length=1,
         description="DMIG (punch), OUTPUT4 or HDF5 of MSC Nastran, relative to the "
         "case file",
     )
-    grids: Path = Field(
+    grids: InputPath = Field(
         description="CSV table of the grids in the order of the matrices: id, x, y, z "
         "[, components]",
     )
@@ -204,11 +201,6 @@ class ReducedLeg(Data):
     damping_ratio: float = Field(
         default=0.03, ge=0, lt=1, description="of critical, >= 0 and < 1"
     )
-
-    @field_validator("files", "grids", mode="after")
-    @classmethod
-    def _relative_to_case(cls, found: Any, info: ValidationInfo) -> Any:
-        return relative_to_case(found, info.context)
 
 
 class Leg(Data):

@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import Field, ValidationError
 
-from drake_landing.gears.fields import Data, InputFile, Vector3
+from drake_landing.gears.fields import Data, Vector3
+from drake_landing.input_paths import InputFile
 
 Float64 = npt.NDArray[np.float64]
 

@@ -11,12 +11,12 @@ from pydantic import (
 
 from drake_landing.gears.fields import (
     Data,
-    InputFile,
     NotNegative,
     Positive,
     Table,
     one_of,
 )
+from drake_landing.input_paths import InputFile
 
 
 class Tire(Data):

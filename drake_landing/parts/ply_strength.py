@@ -25,7 +25,7 @@ import numpy.typing as npt
 from fem.deck.deck import Deck
 from fem.elements.stress_measures import plane_von_mises
 from fem.properties.elasticity import Elasticity, ElasticityTable
-from fem.properties.failure import Strength
+from fem.properties.failure import Strength, hill, max_strain, tsai_wu_parts
 
 Float64 = npt.NDArray[np.float64]
 
@@ -157,26 +157,16 @@ def strength_use(
     u² - b u - a = 0.
     """
     if theory == "STRN":
-        xt, xc, yt, yc, s = strength.strain
-        stress = stress @ compliance.T
-    else:
-        xt, xc, yt, yc, s = (
-            *(strength.xt, strength.xc, strength.yt, strength.yc),
-            strength.s,
-        )
-    s1, s2, t12 = np.moveaxis(stress, -1, 0)
-    x, y = np.where(s1 > 0.0, xt, xc), np.where(s2 > 0.0, yt, yc)
+        return max_strain(stress @ compliance.T, strength.strain)
+    xt, xc, yt, yc, s = strength.xt, strength.xc, strength.yt, strength.yc, strength.s
     if theory in ("HOFF", "TSAI"):
         f12 = strength.f12 if theory == "TSAI" else -0.5 / (xt * xc)
-        b = s1 * (1.0 / xt - 1.0 / xc) + s2 * (1.0 / yt - 1.0 / yc)
-        a = s1**2 / (xt * xc) + s2**2 / (yt * yc) + (t12 / s) ** 2 + 2.0 * f12 * s1 * s2
+        b, a = tsai_wu_parts(stress, xt, xc, yt, yc, s, f12)
         root: Float64 = 0.5 * (b + np.sqrt(np.maximum(b * b + 4.0 * a, 0.0)))
         return np.maximum(root, 0.0)
     if theory == "HILL":
-        of_product = np.where(s1 * s2 > 0.0, xt, xc)
-        square = (s1 / x) ** 2 - s1 * s2 / of_product**2 + (s2 / y) ** 2
-        return np.sqrt(np.maximum(square + (t12 / s) ** 2, 0.0))
-    return np.maximum(np.maximum(np.abs(s1) / x, np.abs(s2) / y), np.abs(t12) / s)
+        return np.sqrt(np.maximum(hill(stress, xt, xc, yt, yc, s), 0.0))
+    return max_strain(stress, (xt, xc, yt, yc, s))
 
 
 def _single(stress: Float64, isotropic: bool) -> Float64:

@@ -137,7 +137,7 @@ class StressWatch:
     def _snap(self, chunk: Chunk) -> None:
         """Displacements of the chunk's worst instants that are worse than before."""
         case = 0 if self._about is None else -1
-        state = self._seen.state.of_case(slice(case, None if case else 1))
+        state = self._seen.state.take(slice(None), slice(case, None if case else 1))
         score = state.equivalent[:, 0] * self._weight
         order = np.argsort(-score, kind="stable")
         group, first = np.unique(self._group[order], return_index=True)

@@ -123,7 +123,7 @@ class StressRows:
         sigma = maps @ u + np.outer(offset, share)
         cases = own.square.shape[1]
         for case in range(cases):
-            alone = own.of_case(slice(case, case + 1))
+            alone = own.take(slice(None), slice(case, case + 1))
             lanes = sigma[:, case::cases]
             _other(self, lanes, slice(0, self.size), first, alone)
 
@@ -160,22 +160,13 @@ class Extremes:
         """(e, c) largest equivalent stress, Pa."""
         return np.sqrt(self.square)
 
-    def take(self, elements: slice) -> "Extremes":
-        """Views of some elements."""
+    def take(self, elements: slice, cases: slice = slice(None)) -> "Extremes":
+        """Views of some elements and load cases."""
         return Extremes(
-            square=self.square[elements],
-            when=self.when[elements],
-            high=self.high[elements],
-            low=self.low[elements],
-        )
-
-    def of_case(self, cases: slice) -> "Extremes":
-        """Views of some load cases."""
-        return Extremes(
-            square=self.square[:, cases],
-            when=self.when[:, cases],
-            high=self.high[:, cases],
-            low=self.low[:, cases],
+            square=self.square[elements, cases],
+            when=self.when[elements, cases],
+            high=self.high[elements, cases],
+            low=self.low[elements, cases],
         )
 
 

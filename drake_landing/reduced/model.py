@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
+from fem.geometry.rigid_motion import rigid_motion
 from fem.matrix_files.named import NamedMatrix
 
 Float64 = npt.NDArray[np.float64]
@@ -80,11 +81,7 @@ class ReducedModel:
 
     def rigid_body(self, about: npt.ArrayLike = (0.0, 0.0, 0.0)) -> Float64:
         """(a + q, 6) unit rigid motions about a point, basic axes."""
-        x, y, z = (self.p - np.asarray(about, float)).T
-        motion = np.tile(np.eye(6), (len(self.p), 1, 1))
-        zero = np.zeros_like(x)
-        turn = np.stack([zero, z, -y, -z, zero, x, y, -x, zero], axis=1)
-        motion[:, :3, 3:] = turn.reshape(-1, 3, 3)
+        motion = rigid_motion(self.p - np.asarray(about, float))
         return np.concatenate(
             [motion[self.kept], np.zeros((self.size - self.a_size, 6))]
         )

@@ -18,7 +18,7 @@ from jinja2 import Environment, StrictUndefined
 from drake_landing.case.axes import deck_axes
 from drake_landing.landing.history import UNITS
 from drake_landing.parts.tables import root_histories
-from drake_landing.report.figures import repeats
+from drake_landing.report.figures import repeats, words
 from drake_landing.results.units import unit_of
 from fem.arrays import Float64
 from fem.files.atomic import write_aside
@@ -107,14 +107,14 @@ def _panels(result: "ProcessResult") -> Iterator[tuple[str, str, pd.DataFrame]]:
         ("vertical", "Vertical tire load per gear, of the runway"),
         ("drag", "Tire drag per gear, of the runway, aft"),
     ):
-        legs = {_words(g): history.leg(g, column) for g in gears}
+        legs = {words(g): history.leg(g, column) for g in gears}
         yield title, UNITS[column], pd.DataFrame(legs)
-    strokes = {_words(g): history.strut[g]["stroke"] for g in gears}
+    strokes = {words(g): history.strut[g]["stroke"] for g in gears}
     yield "Shock-absorber stroke", "m", pd.DataFrame(strokes)
     for names, what in ((["fx", "fy", "fz"], "force"), (["mx", "my", "mz"], "moment")):
         for gear, table in history.attachment.items():
-            own = pd.DataFrame(table[names]).add_prefix(f"{_words(gear)} ")
-            title = f"{_words(gear)}: {what} on the airframe at the attachment node"
+            own = pd.DataFrame(table[names]).add_prefix(f"{words(gear)} ")
+            title = f"{words(gear)}: {what} on the airframe at the attachment node"
             yield title, UNITS[names[0]], own
     roots = root_histories(result.parts)
     for quantity in ("shear", "bending", "torsion"):
@@ -127,9 +127,5 @@ def _panels(result: "ProcessResult") -> Iterator[tuple[str, str, pd.DataFrame]]:
             table.add_suffix(" direct transient"),
             result.multibody_on_grid[point].add_suffix(" multibody"),
         ]
-        title = f"{_words(point)}: acceleration"
+        title = f"{words(point)}: acceleration"
         yield title, "m/s²", pd.concat(both, axis="columns")
-
-
-def _words(name: str) -> str:
-    return name.replace("_", " ")

@@ -53,27 +53,6 @@ def concatenate(parts: Iterable[Equations]) -> Equations:
     )
 
 
-def rigid_motion(lever: Float64, R_BD: Float64) -> Float64:
-    """(n, 6, 6) motion of points in their displacement frames by a rigid body.
-
-    Args:
-        lever: (n, 3) points from the body's reference, basic axes.
-        R_BD: (n, 3, 3) displacement axes of the points.
-
-    Returns:
-        Matrices from [translation; rotation] of the reference in basic axes.
-    """
-    to_d = R_BD.transpose(0, 2, 1)
-    x, y, z = lever[:, 0], lever[:, 1], lever[:, 2]
-    zero = np.zeros_like(x)
-    # u = u_0 + θ × r
-    by_rotation = np.stack([zero, z, -y, -z, zero, x, y, -x, zero], axis=1)
-    matrix = np.zeros((len(lever), 6, 6))
-    matrix[:, :3, :3] = matrix[:, 3:, 3:] = to_d
-    matrix[:, :3, 3:] = to_d @ by_rotation.reshape(-1, 3, 3)
-    return matrix
-
-
 def components(digits: object) -> Int64:
     """Component numbers of a text of digits, ascending: "135" gives 0, 2, 4."""
     return np.array(sorted({int(d) - 1 for d in str(digits) if d in "123456"}), int)

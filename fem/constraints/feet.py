@@ -11,13 +11,14 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64, Int64
-from fem.constraints.equations import Equations, dense_equations, rigid_motion
+from fem.constraints.equations import Equations, dense_equations
 from fem.deck.records import TABLES
 from fem.deck.references import column, refer, table
 from fem.elements.connectors.feet import Foot
 from fem.elements.connectors.piercing import place_connectors
 from fem.elements.connectors.reader import CONNECTORS
 from fem.geometry.points import Points
+from fem.geometry.rigid_motion import rigid_motion
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

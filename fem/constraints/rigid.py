@@ -4,10 +4,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from fem.constraints.equations import Equations, rigid_motion
+from fem.constraints.equations import Equations
 from fem.deck.references import table, where
 from fem.errors import InputError
 from fem.geometry.points import Points
+from fem.geometry.rigid_motion import rigid_motion
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

@@ -14,11 +14,11 @@ from fem.constraints.equations import (
     Equations,
     components,
     dense_equations,
-    rigid_motion,
 )
 from fem.deck.references import table, where
 from fem.errors import InputError
 from fem.geometry.points import Points
+from fem.geometry.rigid_motion import rigid_motion
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

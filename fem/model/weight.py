@@ -14,6 +14,7 @@ import scipy.sparse as sp
 
 from fem.arrays import Float64
 from fem.geometry.points import Points
+from fem.geometry.rigid_motion import rigid_motion
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -67,14 +68,8 @@ def rigid_modes(points: Points, reference: npt.ArrayLike) -> Float64:
     """
     lever = points.xyz - np.asarray(reference, float)
     modes = np.zeros((points.size, 6))
-    local = np.zeros((len(lever), 6, 6))
-    to_d = points.rotation.transpose(0, 2, 1)
-    x, y, z = lever.T
-    zero = np.zeros_like(x)
-    turn = np.stack([zero, z, -y, -z, zero, x, y, -x, zero], axis=1).reshape(-1, 3, 3)
-    local[:, :3, :3] = local[:, 3:, 3:] = to_d
-    local[:, :3, 3:] = to_d @ turn
-    modes[: 6 * len(lever)] = local.reshape(-1, 6)
+    motion = rigid_motion(lever, points.rotation)
+    modes[: 6 * len(lever)] = motion.reshape(-1, 6)
     return modes
 
 

@@ -15,6 +15,7 @@ The bonding index is the larger of both interlaminar shear stresses over SB.
 Reference: MSC Nastran Quick Reference Guide, PCOMP; Reference Guide, composites.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,6 +23,9 @@ import numpy as np
 from fem.arrays import Float64
 
 THEORIES = ("HILL", "HOFF", "TSAI", "STRN")
+
+
+Values = Float64 | float
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -85,7 +89,7 @@ class Failure:
 
 
 def hill(
-    stress: Float64, xt: Float64, xc: Float64, yt: Float64, yc: Float64, s: Float64
+    stress: Float64, xt: Values, xc: Values, yt: Values, yc: Values, s: Values
 ) -> Float64:
     """Hill's index (..., p) of stresses (..., p, 3), strengths (p,)."""
     s1, s2, t12 = np.moveaxis(stress, -1, 0)
@@ -97,21 +101,35 @@ def hill(
 
 def tsai_wu(
     stress: Float64,
-    xt: Float64,
-    xc: Float64,
-    yt: Float64,
-    yc: Float64,
-    s: Float64,
-    f12: Float64,
+    xt: Values,
+    xc: Values,
+    yt: Values,
+    yc: Values,
+    s: Values,
+    f12: Values,
 ) -> Float64:
     """Tsai-Wu's index (..., p) of stresses (..., p, 3), strengths (p,)."""
+    linear, square = tsai_wu_parts(stress, xt, xc, yt, yc, s, f12)
+    return linear + square
+
+
+def tsai_wu_parts(
+    stress: Float64,
+    xt: Values,
+    xc: Values,
+    yt: Values,
+    yc: Values,
+    s: Values,
+    f12: Values,
+) -> tuple[Float64, Float64]:
+    """What of Tsai-Wu's index is linear in the stress, and what is quadratic."""
     s1, s2, t12 = np.moveaxis(stress, -1, 0)
     linear = s1 * (1.0 / xt - 1.0 / xc) + s2 * (1.0 / yt - 1.0 / yc)
     square = s1**2 / (xt * xc) + s2**2 / (yt * yc) + (t12 / s) ** 2
-    return linear + square + 2.0 * f12 * s1 * s2
+    return linear, square + 2.0 * f12 * s1 * s2
 
 
-def max_strain(strain: Float64, allowable: Float64) -> Float64:
+def max_strain(strain: Float64, allowable: Sequence[Values] | Float64) -> Float64:
     """Largest strain over its allowable (..., p), of (..., p, 3) and (5, p)."""
     e1, e2, g12 = np.moveaxis(strain, -1, 0)
     xt, xc, yt, yc, s = allowable

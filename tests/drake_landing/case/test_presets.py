@@ -235,7 +235,7 @@ def _case(scenario: str) -> str:
         ("  sink_rate: 2\n  braking: -1", "scenario.braking: found -1"),
         (
             "  sink_rate: 2\n  runway: {profile: {kind: measured, file: no.csv}}",
-            "no such file: no.csv",
+            "no.csv, expected a file that is there",
         ),
         ("  sink_rate: 2\n  runway: {profile: {kind: bumb}}", "bump, waves, step"),
         ("  sink_rate: 2\n  runway: {surface: oily}", "'dry', 'wet' or 'icy'"),
