@@ -23,8 +23,6 @@ import numpy as np
 from fem.arrays import Float64
 
 THEORIES = ("HILL", "HOFF", "TSAI", "STRN")
-
-
 Values = Float64 | float
 
 
