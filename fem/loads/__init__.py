@@ -1,14 +1,13 @@
 """Loads: static load vectors, and dynamic excitation with its time steps."""
 
 from fem.loads.dynamic import (
-    EnforcedMotion,
     Excitation,
     dynamic_excitation,
-    dynamic_motions,
     initial_conditions,
     table_notices,
     time_steps,
 )
+from fem.loads.enforced_motion import EnforcedMotion, dynamic_motions
 from fem.loads.static import (
     enforced_displacements,
     static_element_loads,

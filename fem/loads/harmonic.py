@@ -21,14 +21,10 @@ from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points
-from fem.loads.dynamic import (
-    MOTIONS,
-    load_factors,
-    motion_of,
-    of_freedoms,
-    pattern_of,
-    table_function,
-)
+from fem.loads.dynamic import pattern_of
+from fem.loads.dynamic_sets import MOTIONS, load_factors, of_freedoms
+from fem.loads.enforced_motion import motion_of
+from fem.loads.time_tables import table_function
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck

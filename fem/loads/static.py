@@ -30,6 +30,18 @@ _ON_ELEMENTS = {
 CARDS = (*CONCENTRATED, *_ON_ELEMENTS, *ACCELERATIONS)
 
 
+def combined_sets(table: pd.DataFrame, sid: int) -> dict[int, float]:
+    """Sets and factors of LOAD or DLOAD cards of a number, else that number itself."""
+    cards = table[table["sid"] == sid]
+    if cards.empty:
+        return {sid: 1.0}
+    factors: dict[int, float] = {}
+    for _, row in cards.iterrows():
+        for scale, lid in zip(row["scales"], row["lids"]):
+            factors[lid] = factors.get(lid, 0.0) + row["s"] * scale
+    return factors
+
+
 def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
     """Sets and their factors that a set stands for: itself, or those of a LOAD card.
 
@@ -38,14 +50,7 @@ def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
     Raises:
         InputError: the set is empty, or a LOAD card combines itself.
     """
-    load = deck.cards["LOAD"]
-    factors: dict[int, float] = {}
-    cards = load[load["sid"] == sid]
-    for _, row in cards.iterrows():
-        for scale, lid in zip(row["scales"], row["lids"]):
-            factors[lid] = factors.get(lid, 0.0) + row["s"] * scale
-    if cards.empty:
-        factors[sid] = 1.0
+    factors = combined_sets(deck.cards["LOAD"], sid)
     known = {
         number: factor
         for number, factor in factors.items()

@@ -19,7 +19,7 @@ from fem.deck.references import table
 from fem.elements.block import Detail, ElementBlock, Kind
 from fem.elements.registry import readers
 from fem.geometry.points import Points
-from fem.loads.dynamic import table_function
+from fem.loads.time_tables import table_function
 from fem.model.assembly import Matrices, assemble
 from fem.recovery.elements import ElementTable, element_tables
 
