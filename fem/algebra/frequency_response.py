@@ -158,8 +158,14 @@ def modal_response(
             matrix = matrix + shape.T @ (change @ shape)
             viscous, structural = damping + _projected(shape, there)
         dynamic = matrix + 1j * (omega * viscous + structural)
+        if (np.abs(dynamic).sum(axis=1) < _RESONANT * omega**2).any():
+            raise np.linalg.LinAlgError("a frequency is that of an undamped mode")
         found[k] = np.linalg.solve(dynamic, load[:, k])
     return found
+
+
+# Stiffness of a mode over its inertia, beyond 1, that is rounding of its frequency.
+_RESONANT = 1e-10
 
 
 def _projected(shape: Float64, matrices: HarmonicMatrices) -> Float64:

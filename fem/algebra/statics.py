@@ -134,15 +134,43 @@ def inertia_relief(
                 "it determinately, and no other constraint may hold it"
             )
         heavy = mass @ motions
-        acceleration = np.linalg.solve(motions.T @ heavy, motions.T @ load)
+        acceleration = _acceleration(motions.T @ heavy, motions.T @ load)
         balanced = load - heavy @ acceleration
         u = np.zeros_like(balanced)
         u[keep] = factor.solve(balanced[keep])
     if not given:
-        u -= motions @ np.linalg.solve(motions.T @ heavy, heavy.T @ u)
+        u -= motions @ _acceleration(motions.T @ heavy, heavy.T @ u)
     return InertiaRelief(
         displacement=u, acceleration=acceleration, balanced=balanced, motions=motions
     )
+
+
+def _acceleration(rigid_mass: Float64, load: Float64) -> Float64:
+    """(r, c) of rigid masses (r, r) under loads (r, c).
+
+    A motion without inertia, as the roll of masses on a line, has no acceleration where
+    no load acts along it.
+
+    Raises:
+        ValueError: a load acts along such a motion.
+    """
+    size = np.sqrt(np.diag(rigid_mass))
+    scale = 1.0 / np.where(size > 0.0, size, 1.0)
+    weighted = scale[:, None] * load
+    values, vectors = np.linalg.eigh(scale[:, None] * rigid_mass * scale)
+    massless = values < _NO_INERTIA * values.max(initial=0.0)
+    along = np.abs(vectors[:, massless].T @ weighted)
+    if (along > _UNLOADED * np.abs(weighted).max(axis=0, initial=0.0)).any():
+        raise ValueError(
+            "a load turns or moves the structure along a rigid-body motion that has no "
+            "inertia; expected masses off that line (CONM2 with inertia, offsets)"
+        )
+    kept = vectors[:, ~massless]
+    return scale[:, None] * (kept @ ((kept.T @ weighted).T / values[~massless]).T)
+
+
+# Inertia over the largest that is none, with masses scaled to one; load that is none.
+_NO_INERTIA, _UNLOADED = 1e-12, 1e-9
 
 
 def free_motions(stiffness: sp.csr_matrix, rigid_body: Float64) -> Float64:

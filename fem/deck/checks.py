@@ -175,9 +175,9 @@ _SELECTED: tuple[tuple[str, tuple[str, ...], tuple[int, ...]], ...] = (
 
 # Cards that combine sets: attribute of the subcase, column, tables of the members.
 _COMBINED: dict[str, tuple[str, str, tuple[str, ...]]] = {
-    "SPCADD": ("spc", "sets", ("SPC", "SPCADD")),
-    "MPCADD": ("mpc", "sets", ("MPC", "MPCADD")),
-    "NSMADD": ("nsm", "sets", ("NSM", "NSML", "NSMADD")),
+    "SPCADD": ("spc", "sets", ("SPC",)),
+    "MPCADD": ("mpc", "sets", ("MPC",)),
+    "NSMADD": ("nsm", "sets", ("NSM", "NSML")),
     "LOAD": ("load", "lids", STATIC_LOADS),
     "DLOAD": ("dload", "lids", ("TLOAD1", "TLOAD2", "RLOAD1", "RLOAD2")),
 }
@@ -218,6 +218,7 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected
                     f"{number} is not defined; expected a set of "
                     f"{', '.join(names[:3])}"
                 )
+        problems += _nested(deck, attribute)
         absent = _members(deck, attribute)
         if attribute in _MAY_BE_ABSENT:
             notices += [f"{text}; it constrains nothing" for text in absent]
@@ -226,6 +227,25 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected
         else:
             problems += absent
     return Selected(list(dict.fromkeys(problems)), list(dict.fromkeys(notices)))
+
+
+def _nested(deck: Deck, attribute: str) -> list[str]:
+    """Selected combinations of combinations, which Nastran does not take either."""
+    problems = []
+    chosen = [getattr(subcase, attribute) for subcase in deck.case_control]
+    for name, (user, column, targets) in _COMBINED.items():
+        if user != attribute:
+            continue
+        table = deck.cards[name]
+        own = set(table["sid"].tolist()) - set(ids(deck.cards, targets, "sid").tolist())
+        table = table[table["sid"].isin(chosen)]
+        problems += [
+            f"{row['file']}:{row['line']}: {name} {row['sid']}: set {number} "
+            f"combines sets itself, expected sets of {' or '.join(targets[:3])}"
+            for row in table.to_dict("records")
+            for number in sorted(own & {int(i) for i in row[column]})
+        ]
+    return problems
 
 
 def _some_there(deck: Deck) -> bool:
@@ -245,7 +265,7 @@ def _members(deck: Deck, attribute: str) -> list[str]:
         table = deck.cards[name]
         table = table[table["sid"].isin(chosen)].reset_index(drop=True)
         if user == attribute:
-            known = ids(deck.cards, targets, "sid")
+            known = np.append(ids(deck.cards, targets, "sid"), deck.cards[name]["sid"])
             what = f"{targets[0]} set"
             problems += _missing({name: table}, name, column, known, what)
     return problems

@@ -115,13 +115,20 @@ def read_deck(
     has_parts = bool(sections.superelements)
     deck = _deck(path, bulk, case, ignore, problems, notices, partial=has_parts)
     deck = replace(deck, params={**deck.params, **executive.cells})
-    if any(c.initial_temperature or c.temperature for c in case.subcases):
+    if any(
+        c.initial_temperature or c.material_temperature or c.temperature
+        for c in case.subcases
+    ):
         problems += [
             f"{card.place}: {card.name} with TEMPERATURE in the case control: "
             "materials do not depend on temperature here; give the constants that hold"
             for card in bulk.cards
             if card.name.startswith("MATT") and card.name not in ignore
         ]
+    if not problems and any(
+        c.initial_temperature and c.temperature for c in case.subcases
+    ):
+        notices += _own_references(deck)
     if executive.sol == 101 and any(c.temperature for c in case.subcases):
         problems += [
             f"{card.place}: {card.name} with TEMPERATURE(LOAD): temperatures over the "
@@ -185,6 +192,16 @@ def read_deck(
         external=deck.external,
         increments=increments,
     )
+
+
+def _own_references(deck: Deck) -> list[str]:
+    """Materials whose TREF stands against TEMPERATURE(INITIAL)."""
+    return [
+        f"warning: {name} {', '.join(map(str, given))}: TREF counts; "
+        "TEMPERATURE(INITIAL) is the reference of materials with a blank TREF only"
+        for name in ("MAT1", "MAT2", "MAT8", "MAT9", "PCOMP")
+        if (given := deck.cards[name].dropna(subset="tref").iloc[:, 2].tolist()[:8])
+    ]
 
 
 def _known_reference(deck: Deck, notices: list[str]) -> Deck:

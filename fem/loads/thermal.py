@@ -7,8 +7,8 @@ temperature of its grids (CQUAD4 its slope, too), or what TEMPRB and TEMPP1 say 
 Laminates whose plies
 expand differently bend, and keep stresses in their plies (`shell_expansion`); with a
 gradient over the thickness (TEMPP1) shells bend, too. The strain is alpha (T - TREF),
-as in Nastran's linear statics (from memory; there TEMPERATURE(INITIAL) chooses
-constants of materials only).
+as in Nastran's linear statics; where TREF is blank it counts from TEMPERATURE(INITIAL),
+without that from 0 (from memory of the guide, which asks for a blank TREF then).
 """
 
 from collections.abc import Sequence
@@ -42,8 +42,8 @@ class FreeMotions:
     Attributes:
         blocks: elements that expand.
         motions: (e, n) for each block.
-        heats: (e, 2) for each block: degrees beyond TREF, and degrees per length over
-            the thickness of shells.
+        heats: (e, 2) for each block: degrees beyond TREF or the initial temperature,
+            and degrees per length over the thickness of shells.
     """
 
     blocks: tuple["ElementBlock", ...]
@@ -96,15 +96,18 @@ def free_motions(
     moved: dict[int, tuple[Float64, Float64]] = {}
     problems: list[str] = []
     if subcase.temperature:
-        given = _Temperatures(deck, points, subcase.temperature)
+        given = _Temperatures(deck, points, "LOAD", subcase.temperature)
+        before, first = None, subcase.initial_temperature
+        if first:
+            before = _Temperatures(deck, points, "INITIAL", first)
         for k, block in enumerate(blocks):
-            expanded = _expanded(deck, given, block, problems)
+            expanded = _expanded(deck, given, before, block, problems)
             if expanded is not None:
                 moved[k] = expanded
     if subcase.deform:
         for k, motion in _deformed(deck, blocks, subcase.deform, problems):
-            before = moved.get(k, (0.0, np.zeros((len(motion), 2))))
-            moved[k] = before[0] + motion, before[1]
+            heated = moved.get(k, (0.0, np.zeros((len(motion), 2))))
+            moved[k] = heated[0] + motion, heated[1]
     if problems:
         raise InputError(problems)
     if not moved:
@@ -120,12 +123,12 @@ class _Temperatures:
         InputError: the set is not there.
     """
 
-    def __init__(self, deck: "Deck", points: Points, sid: int) -> None:
+    def __init__(self, deck: "Deck", points: Points, kind: str, sid: int) -> None:
         own = {name: _of(deck, name, sid) for name in TEMPERATURES}
         if all(rows.empty for rows in own.values()):
             raise InputError(
-                f"{deck.path}: TEMPERATURE(LOAD) = {sid}: no {', '.join(TEMPERATURES)} "
-                "of this set in the deck"
+                f"{deck.path}: TEMPERATURE({kind}) = {sid}: no "
+                f"{', '.join(TEMPERATURES)} of this set in the deck"
             )
         everywhere = own["TEMPD"]["t"].to_numpy(float)
         self.at = np.full(points.size, everywhere[0] if len(everywhere) else np.nan)
@@ -165,30 +168,29 @@ def _of(deck: "Deck", card: str, sid: int) -> pd.DataFrame:
 
 
 def _expanded(
-    deck: "Deck", given: _Temperatures, block: "ElementBlock", problems: list[str]
+    deck: "Deck",
+    given: _Temperatures,
+    before: _Temperatures | None,
+    block: "ElementBlock",
+    problems: list[str],
 ) -> tuple[Float64, Float64] | None:
-    """(e, n) motions of a block under the temperatures, and (e, 2) these."""
+    """(e, n) motions of a block under the temperatures, and (e, 2) these.
+
+    Args:
+        before: initial temperatures, which count where the material has no TREF.
+    """
     per_degree = block.expansion() if isinstance(block, DenseBlock) else None
     if per_degree is None:
         return None
-    temperature, bent = given.of(block), np.zeros_like(per_degree)
-    gradient = np.zeros(len(temperature))
-    if isinstance(block, LineBlock):
-        at, mean, slopes = given.of_lines(block)
-        temperature[at] = mean
-        whole = np.zeros((len(block.id), 2, 2))
-        whole[at] = slopes
-        bent = block.bent(whole)
-    elif isinstance(block, Shell):
-        at, mean, slopes = given.of_shells(block)
-        temperature[at], gradient[at] = mean, slopes
-        bent = block.uneven(given.of_grids(block))
-        bent[at] = 0.0
-        hot = gradient != 0.0
-        bent[hot] = gradient[hot, None] * block.bent()[hot]
-    else:
-        at, mean, _ = given.of_lines(block)
-        temperature[at] = mean
+    reference = np.broadcast_to(getattr(block, "tref", 0.0), len(block.id))
+    temperature, gradient, bent = _felt(given, block, per_degree)
+    blank = np.isnan(reference)
+    temperature = temperature - np.where(blank, 0.0, reference)
+    if before is not None and blank.any():
+        cold, slope, curved = _felt(before, block, per_degree)
+        temperature = temperature - np.where(blank, cold, 0.0)
+        gradient = gradient - np.where(blank, slope, 0.0)
+        bent = bent - np.where(blank[:, None], curved, 0.0)
     moves = np.any(per_degree, axis=1)
     if not moves.any() and not np.any(bent):
         return None
@@ -207,9 +209,34 @@ def _expanded(
         "expected TEMP for it or TEMPD for all"
         for k in unknown[:20]
     ]
-    change = np.where(moves, temperature - getattr(block, "tref", 0.0), 0.0)
+    change = np.where(moves, temperature, 0.0)
     heat = np.stack([change, gradient], axis=1)
     return change[:, None] * per_degree + bent, heat
+
+
+def _felt(
+    given: _Temperatures, block: "ElementBlock", per_degree: Float64
+) -> tuple[Float64, Float64, Float64]:
+    """(e,) temperatures, (e,) gradients over z, (e, n) motions of uneven heat."""
+    temperature, bent = given.of(block), np.zeros_like(per_degree)
+    gradient = np.zeros(len(temperature))
+    if isinstance(block, LineBlock):
+        at, mean, slopes = given.of_lines(block)
+        temperature[at] = mean
+        whole = np.zeros((len(block.id), 2, 2))
+        whole[at] = slopes
+        bent = block.bent(whole)
+    elif isinstance(block, Shell):
+        at, mean, slopes = given.of_shells(block)
+        temperature[at], gradient[at] = mean, slopes
+        bent = block.uneven(given.of_grids(block))
+        bent[at] = 0.0
+        hot = gradient != 0.0
+        bent[hot] = gradient[hot, None] * block.bent()[hot]
+    else:
+        at, mean, _ = given.of_lines(block)
+        temperature[at] = mean
+    return temperature, gradient, bent
 
 
 def _deformed(

@@ -38,7 +38,7 @@ class Elasticity:
         rho, ge: density and structural damping coefficient.
         strength: allowable stresses of a ply.
         alpha: strain per degree, (6,) of solids, (3,) of others; zero: none.
-        tref: temperature without strain.
+        tref: temperature without strain; NaN: blank.
     """
 
     mid: int
@@ -167,7 +167,7 @@ def _mat1(row: pd.Series) -> Elasticity:
         ge=_value(row, "ge"),
         strength=_strength(row, "st sc st sc ss", (e, e, g)),
         alpha=_value(row, "a") * np.array([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]),
-        tref=_value(row, "tref"),
+        tref=float(row["tref"]),
     )
 
 
@@ -187,7 +187,7 @@ def _mat2(row: pd.Series) -> Elasticity:
         ge=_value(row, "ge"),
         strength=_strength(row, "st sc st sc ss", (g11, g22, g33)),
         alpha=np.array([_value(row, k) for k in ("a1", "a2", "a3")]),
-        tref=_value(row, "tref"),
+        tref=float(row["tref"]),
     )
 
 
@@ -205,7 +205,7 @@ def _mat8(row: pd.Series) -> Elasticity:
             row, "xt xc yt yc s", tuple(_value(row, k) for k in ("e1", "e2", "g12"))
         ),
         alpha=np.array([_value(row, "a1"), _value(row, "a2"), 0.0]),
-        tref=_value(row, "tref"),
+        tref=float(row["tref"]),
     )
 
 
@@ -242,7 +242,7 @@ def _mat9(row: pd.Series) -> Elasticity:
         rho=column(pd.DataFrame([row]), "rho")[0],
         ge=_value(row, "ge"),
         alpha=np.array(row["alphas"], float),
-        tref=_value(row, "tref"),
+        tref=float(row["tref"]),
     )
 
 

@@ -22,7 +22,8 @@ class Isotropic:
         e, g, nu: (n,) Young's modulus, shear modulus, Poisson's ratio.
         rho: (n,) density.
         ge: (n,) structural damping coefficient.
-        alpha, tref: (n,) expansion per degree, and the temperature without strain.
+        alpha, tref: (n,) expansion per degree, and the temperature without strain (NaN:
+            blank).
     """
 
     e: Float64
@@ -90,5 +91,5 @@ def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:
         rho=column(mat, "rho"),
         ge=column(mat, "ge"),
         alpha=column(mat, "a"),
-        tref=column(mat, "tref"),
+        tref=mat["tref"].to_numpy(float),
     )

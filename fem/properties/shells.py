@@ -58,7 +58,7 @@ class ShellProperty:
         laminate: the plies, None for PSHELL.
         ply_id: (p,) numbers of the plies.
         expansion: under temperatures.
-        tref: temperature without strain.
+        tref: temperature without strain; NaN: blank.
         failure: what FT and SB measure the plies against, None: nothing.
     """
 
@@ -265,7 +265,7 @@ def _pcomp(row: pd.Series, materials: ElasticityTable) -> ShellProperty:
             (a, b, d),
             np.stack([materials[int(mid)].plane_alpha for mid in order]),
         ),
-        tref=float(np.nan_to_num(float(row["tref"]))),
+        tref=float(row["tref"]),
         ply_id=plies,
         failure=_failure(row, materials, symmetric=symmetric),
     )

@@ -4,6 +4,7 @@ With LAM SYM, SYMEM, SYBEND or SYSMEAR the plies are the lower half; the bottom 
 half of the whole thickness below the reference surface then, where Z0 is blank.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -35,7 +36,7 @@ def _plies(f: Fields, first: list[int], numbers: list[int] | None = None) -> Row
     thetas = [f.real(k + 2, "THETA", 0.0) for k in first]
     souts = tuple(f.word(k + 3, "SOUT", "NO") for k in first)
     row = _laminate(f, ts, thetas, f.text(8))[0]
-    row["tref"], row["ge"] = f.real(6, "TREF", 0.0), f.real(7, "GE", 0.0)
+    row["tref"], row["ge"] = f.real(6, "TREF", math.nan), f.real(7, "GE", 0.0)
     row["mids"], row["souts"] = np.array(mids, dtype=np.int64), souts
     if numbers:
         row["plies"] = np.array(numbers, dtype=np.int64)
@@ -74,7 +75,7 @@ def _laminate(f: Fields, ts: list[float], thetas: list[float], lam: str) -> Rows
             "nsm": f.real(3, "NSM", 0.0),
             "sb": f.real(4, "SB", 0.0),
             "ft": f.text(5),
-            "tref": 0.0,
+            "tref": math.nan,
             "ge": 0.0,
             "lam": lam,
             "ts": np.array(ts),

@@ -3,6 +3,7 @@
 Each function takes the fields of one card and returns its rows, columns by name.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -125,7 +126,7 @@ def mat9(f: Fields) -> Rows:
     row: Row = {"mid": f.integer(1, "MID")}
     row["gs"] = _symmetric(f, 2, "G", lower=False)
     row["alphas"] = np.array([f.real(24 + k, f"A{k + 1}", 0.0) for k in range(6)])
-    row["tref"] = f.real(30, "TREF", 0.0)
+    row["tref"] = f.real(30, "TREF", math.nan)
     return [{**row, "rho": f.real(23, "RHO", 0.0), "ge": f.real(31, "GE", 0.0)}]
 
 

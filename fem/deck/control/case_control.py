@@ -266,8 +266,10 @@ class _Reader:
         """TEMPERATURE(INITIAL, MATERIAL, LOAD or BOTH) = n; alone it is BOTH."""
         kind = command.options[0] if command.options else "BOTH"
         n = number(command.value)
-        if kind.startswith(("INIT", "MATE")):
+        if kind.startswith("INIT"):
             self.change(initial_temperature=n)
+        elif kind.startswith("MATE"):
+            self.change(material_temperature=n)
         else:
             self.change(temperature=n)
 

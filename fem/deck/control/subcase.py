@@ -11,7 +11,9 @@ class Subcase:
 
     Attributes:
         temperature: set of temperatures that load (TEMPERATURE(LOAD)).
-        initial_temperature: set of TEMPERATURE(INITIAL) or (MATERIAL).
+        initial_temperature: set of TEMPERATURE(INITIAL), the reference of materials
+            whose TREF is blank.
+        material_temperature: set of TEMPERATURE(MATERIAL).
         meffmass: grid about which effective masses of modes are taken, 0: the origin of
             the basic frame; -1: they are not asked for.
         statsub: static subcase whose load buckles (STATSUB, STATSUB(BUCKLING)).
@@ -52,6 +54,7 @@ class Subcase:
     deform: int = 0
     temperature: int = 0
     initial_temperature: int = 0
+    material_temperature: int = 0
     superelements: frozenset[int] | None = None
     extseout: bool = False
     resvec: str = ""

@@ -10,7 +10,7 @@ RECORDS = (
         name="MAT1",
         group=_GROUP,
         fields="mid:i e:f=nan[M/L] g:f=nan[M/L] nu:f=nan rho:f=0.[M/L3] a:f=0. "
-        "tref:f=0. ge:f=0. st:f=nan[M/L] sc:f=nan[M/L] ss:f=nan[M/L] mcsid:i=0",
+        "tref:f=nan ge:f=0. st:f=nan[M/L] sc:f=nan[M/L] ss:f=nan[M/L] mcsid:i=0",
         ids="material",
     ),
     Card(
@@ -18,7 +18,7 @@ RECORDS = (
         group=_GROUP,
         fields="mid:i g11:f=0.[M/L] g12:f=0.[M/L] g13:f=0.[M/L] g22:f=0.[M/L] "
         "g23:f=0.[M/L] g33:f=0.[M/L] rho:f=0.[M/L3] a1:f=0. a2:f=0. a3:f=0. "
-        "tref:f=0. ge:f=0. st:f=nan[M/L] "
+        "tref:f=nan ge:f=0. st:f=nan[M/L] "
         "sc:f=nan[M/L] ss:f=nan[M/L] -",
         ids="material",
     ),
@@ -26,7 +26,7 @@ RECORDS = (
         name="MAT8",
         group=_GROUP,
         fields="mid:i e1:f[M/L] e2:f[M/L] nu12:f=0. g12:f=0.[M/L] g1z:f=0.[M/L] "
-        "g2z:f=0.[M/L] rho:f=0.[M/L3] a1:f=0. a2:f=0. tref:f=0. "
+        "g2z:f=0.[M/L] rho:f=0.[M/L3] a1:f=0. a2:f=0. tref:f=nan "
         "xt:f=nan xc:f=nan yt:f=nan yc:f=nan "
         "s:f=nan ge:f=0. f12:f=0.[L2/M2] strn:f=0.",
         ids="material",

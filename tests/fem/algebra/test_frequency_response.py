@@ -82,3 +82,19 @@ def test_effective_masses_add_up_to_the_rigid_mass():
     assert found.rigid == pytest.approx(motions.T @ MASS @ motions)
     assert found.effective.sum(axis=0) == pytest.approx(np.diag(found.rigid))
     assert shapes @ found.factor == pytest.approx(motions)
+
+
+def test_an_undamped_mode_is_not_driven_at_its_own_frequency():
+    """Whatever rounding leaves of its stiffness."""
+    k, m = sp.csr_matrix(STIFF), sp.csr_matrix(MASS)
+    modes = normal_modes(k, m, count=3)
+    own = modes.frequency_hz * (1.0 + np.array([0.0, 1e-15, -3e-13]))
+    bare = HarmonicMatrices(stiffness=k, mass=m)
+    load = (modes.shape.T @ LOAD)[:, None]
+    for hertz in own:
+        with pytest.raises(np.linalg.LinAlgError):
+            modal_response(modes, bare, np.array([hertz]), load)
+        damped = modal_response(
+            modes, bare, np.array([hertz]), load, ratio=np.full(3, 1e-6)
+        )
+        assert np.isfinite(damped).all()

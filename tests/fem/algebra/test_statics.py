@@ -111,3 +111,19 @@ def test_partly_held_structure_keeps_its_free_motions_only():
     motions = free_motions(pinned, rigid_beam(5))
     assert motions.shape[1] == 1
     assert abs(motions[0, 0]) < 1e-12
+
+
+def test_inertia_relief_of_masses_on_a_line():
+    """No inertia in roll: of no account unless a load rolls them, which is refused."""
+    stiffness = sp.csr_matrix(100.0 * np.array([[1.0, -1.0], [-1.0, 1.0]]))
+    stiffness = sp.block_diag([stiffness, 0.0 * sp.eye(1)], format="csr")
+    mass = sp.diags([1.0, 3.0, 0.0], format="csr")
+    rigid = np.array([[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    load = np.array([[8.0], [0.0], [0.0]])
+    result = inertia_relief(stiffness, mass, load, rigid_body=rigid)
+    spring = 100.0 * (result.displacement[0] - result.displacement[1])
+    np.testing.assert_allclose(spring, 6.0)
+    np.testing.assert_allclose(result.balanced, [[6.0], [-6.0], [0.0]], atol=1e-12)
+    load[2] = 1e-3
+    with pytest.raises(ValueError, match="no inertia"):
+        inertia_relief(stiffness, mass, load, rigid_body=rigid)

@@ -115,3 +115,30 @@ def test_normals_of_shells_may_be_given(read):
     faulty = read(fold + "SNORM,2,0,0.,0.,0.\n", alone=True)
     with pytest.raises(InputError, match="the normal has no length"):
         deck_normals(faulty, read_points(faulty))
+
+
+BAR_WITH_SETS = (
+    "SPC1,1,123,1\nSPC1,2,456,1\nSPCADD,9,1,2\nSPCADD,10,9\nLOAD,5,1.,1.,6\n"
+    "LOAD,6,1.,1.,1\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        (
+            "SPC=10\nLOAD=1",
+            "SPCADD 10: set 9 combines sets itself, expected sets of SPC",
+        ),
+        ("SPC=9\nLOAD=5", "LOAD 5: set 6 combines sets itself, expected sets of FORCE"),
+    ],
+)
+def test_combinations_of_combinations_are_refused(read, case, words):
+    with pytest.raises(InputError, match=words):
+        read(BAR_WITH_SETS, case=case)
+
+
+def test_sets_under_the_number_of_a_combination_are_combined(read):
+    bulk = BAR_WITH_SETS + "SPC1,9,123456,1\n"
+    structure = Structure.from_deck(read(bulk, case="SPC=10\nLOAD=1"))
+    assert structure.stiffness.shape == (12, 12)

@@ -342,3 +342,46 @@ def test_a_clamped_rectangle_under_a_slope_of_temperature(solve, turned):
     along = E * t * ALPHA * np.array([even - odd, even + odd])
     expected = np.array([along[0], along[1], -along[1], -along[0]])
     np.testing.assert_allclose(reaction[:, 2 if turned else 1], expected, rtol=1e-4)
+
+
+INITIAL = "SPC = 1\nTEMP(LOAD) = 4\nTEMP(INIT) = 5"
+
+
+@pytest.mark.parametrize(
+    ("tref", "heat"), [("", 50.0), ("20.", 100.0)], ids=["blank", "given"]
+)
+@pytest.mark.parametrize("card", [*LINES, "CQUAD4", "CHEXA"])
+def test_a_blank_reference_is_the_initial_temperature(solve, card, tref, heat):
+    """Between walls; with a TREF in the material that one counts."""
+    grids = (
+        "GRID,1\nGRID,2,,3.\nGRID,3,,3.,1.\nGRID,4,,0.,1.\nGRID,5,,0.,0.,1.\n"
+        "GRID,6,,3.,0.,1.\nGRID,7,,3.,1.,1.\nGRID,8,,0.,1.,1.\n"
+    )
+    more = {
+        "CQUAD4": "CQUAD4,1,1,1,2,3,4\nPSHELL,1,1,.01,1,,1\nSPC1,1,123,5,6,7,8\n",
+        "CHEXA": "CHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\n",
+    }
+    others = "SPC1,1,123456,3,THRU,8\n"
+    bulk = LINES.get(card, "") + more.get(card, "") + (others if card in LINES else "")
+    material = MAT1.replace(",20.\n", f",{tref}\n")
+    held = "SPC1,1,1,1,THRU,8\nSPC1,1,2,1,2\nSPC1,1,3,1,2,3,4\nSPC1,1,456,1,2\n"
+    file = solve(grids + bulk + held + material + "TEMPD,4,120.,5,70.\n", case=INITIAL)
+    table = file[f"static/1/element_stress/{card}"]
+    names = ("axial", "oxx", "oxx_1", "sxc_a")
+    at = next(k for k, n in enumerate(table.attrs["columns"]) if n in names)
+    if card == "CBEAM":
+        force = file["static/1/element_force/CBEAM"]
+        at = list(force.attrs["columns"]).index("axial_force_a")
+        stress = force["value"][0, at] / 2e-4
+    else:
+        stress = table["value"][0, at]
+    assert stress == pytest.approx(-E * ALPHA * heat, rel=1e-9)
+
+
+def test_reference_of_the_material_against_the_initial_one_is_said(solve, tmp_path):
+    grids = "GRID,1\nGRID,2,,3.\nSPC1,1,123456,1,2\nTEMPD,4,120.,5,70.\n"
+    solve(grids + LINES["CROD"] + MAT1, case=INITIAL)
+    notices = "".join(fem.read_deck(tmp_path / "deck.bdf").notices)
+    assert "MAT1 1: TREF counts; TEMPERATURE(INITIAL) is the reference" in notices
+    with pytest.raises(InputError, match=r"TEMPERATURE\(INITIAL\) = 5: no TEMP"):
+        solve(grids.replace(",5,70.", "") + LINES["CROD"] + MAT1, case=INITIAL)
