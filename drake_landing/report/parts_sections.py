@@ -15,6 +15,7 @@ from drake_landing.report.page import Block, Section, png_block, table_block
 from drake_landing.report.section_loads import monitor_points, section_loads
 from drake_landing.results.comparison import shock_response_spectrum
 from drake_landing.transient.practices import HYBRID, RIGID, STATIC, Practices
+from fem.arrays import Float64
 from fem.model.differential import COARSE
 
 if TYPE_CHECKING:
@@ -107,13 +108,30 @@ def _stresses(
                 fold=True,
             ),
         ]
+    bars = 0
+    if len(axial):
+        blocks.append(_axial(axial))
+        bars = int(stress.axial_only.sum())
+    none = not bars and not len(components)
+    text = _stress_text(result, "margin" not in unknown, bars)
+    return Section(
+        id="parts",
+        title="What the parts see: stresses",
+        text=text + "The model has no element with stresses. " * none + unable,
+        blocks=blocks,
+    )
+
+
+def _stress_text(result: "ProcessResult", margins: bool, bars: int) -> str:
+    """How to read the tables, with `margins`, and without `bars` that bend."""
+    factor, total = result.case.parts.ultimate_factor, result.parts.total
     text = (
         "Direct transient, all elements at all steps. Equivalent: von Mises of the "
         "sheet itself, the larger of both fibres; of bars the largest direct stress, "
         "without torsion. "
         f"Places are those of the deck ({deck_axes(result.airframe.R_AB)}). "
     )
-    if "margin" not in unknown:
+    if margins:
         text += (
             f"Margin of safety: allowable over {factor:g} times the stress, less 1. "
         )
@@ -124,23 +142,14 @@ def _stresses(
         "largest increment of the landing alone, of any element and instant, stands "
         "beside it. "
     )
-    if len(axial):
-        blocks.append(_axial(axial))
-        bars = int(stress.axial_only.sum())
+    if bars:
         text += (
             f"{bars} bars give no stress recovery points: their axial stress, which "
             "leaves out bending, stands in a table of its own and is no part of the "
             "worst stresses. Their section loads tell what they carry; C, D, E, F on "
             "PBAR (PBEAM), or shapes by PBARL (PBEAML), give their stresses. "
         )
-    elif not len(components):
-        text += "The model has no element with stresses. "
-    return Section(
-        id="parts",
-        title="What the parts see: stresses",
-        text=text + unable,
-        blocks=blocks,
-    )
+    return text
 
 
 def _steady(result: "ProcessResult") -> str:
@@ -271,36 +280,10 @@ def _equipment(result: "ProcessResult") -> Section:
         )
         for name, table in histories.items()
     }
-    rows = []
-    for name, table in histories.items():
-        at = int(np.argmax(spectra[name]))
-        values, time = table.to_numpy(), result.loads.time
-        worst = np.abs(values).argmax(axis=0)
-        peaks = dict(zip(table.columns, zip(values.T, worst)))
-        nought = _NOUGHT * float(np.abs(values).max(initial=0.0))
-        rows.append(
-            {
-                "place": name.replace("_", " "),
-                **{axis: float(v[k]) for axis, (v, k) in peaks.items()},
-                **{
-                    f"t{axis}": float(time[k]) if abs(v[k]) > nought else float("nan")
-                    for axis, (v, k) in peaks.items()
-                },
-                "spectrum": float(spectra[name][at]),
-                "hertz": float(SPECTRUM_HZ[at]),
-            }
-        )
-    heads = {
-        "place": "place",
-        "x": "peak x m/s²",
-        "tx": "at s",
-        "y": "peak y m/s²",
-        "ty": "at s ",
-        "z": "peak z m/s²",
-        "tz": " at s",
-        "spectrum": "largest response m/s²",
-        "hertz": "at Hz",
-    }
+    rows = [
+        _equipment_row(name, table, result.loads.time, spectra[name])
+        for name, table in histories.items()
+    ]
     formats = dict.fromkeys(("x", "y", "z", "spectrum", "hertz"), ".1f")
     formats |= dict.fromkeys(("tx", "ty", "tz"), ".3f")
     groups: dict[str, list[str]] = {}
@@ -328,9 +311,37 @@ def _equipment(result: "ProcessResult") -> Section:
         f"deck ({deck_axes(result.airframe.R_AB)}).",
         blocks=[
             *pictures,
-            table_block(pd.DataFrame(rows), heads, formats, "Peaks and spectra"),
+            table_block(pd.DataFrame(rows), _EQUIPMENT, formats, "Peaks and spectra"),
         ],
     )
+
+
+_EQUIPMENT = {
+    "place": "place",
+    "x": "peak x m/s²",
+    "tx": "at s",
+    "y": "peak y m/s²",
+    "ty": "at s ",
+    "z": "peak z m/s²",
+    "tz": " at s",
+    "spectrum": "largest response m/s²",
+    "hertz": "at Hz",
+}
+
+
+def _equipment_row(
+    name: str, table: pd.DataFrame, time: Float64, spectrum: Float64
+) -> dict[str, str | float]:
+    """Peaks along the axes with their instants, and that of the spectrum."""
+    values = table.to_numpy()
+    nought = _NOUGHT * float(np.abs(values).max(initial=0.0))
+    row: dict[str, str | float] = {"place": name.replace("_", " ")}
+    for axis, value in zip(table.columns, values.T):
+        k = int(np.abs(value).argmax())
+        row[axis] = float(value[k])
+        row[f"t{axis}"] = float(time[k]) if abs(value[k]) > nought else float("nan")
+    at = int(np.argmax(spectrum))
+    return {**row, "spectrum": float(spectrum[at]), "hertz": float(SPECTRUM_HZ[at])}
 
 
 def _practices(result: "ProcessResult", practices: Practices) -> Section:

@@ -28,6 +28,7 @@ from fem.deck.cleanup import clean, drop_unused_equations
 from fem.deck.control.case_control import CaseControl, read_case_control
 from fem.deck.control.executive import read_executive
 from fem.deck.control.param_cards import read_parameters
+from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck, Superelement
 from fem.deck.design_variables import set_initial_values
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
@@ -115,27 +116,12 @@ def read_deck(
     has_parts = bool(sections.superelements)
     deck = _deck(path, bulk, case, ignore, problems, notices, partial=has_parts)
     deck = replace(deck, params={**deck.params, **executive.cells})
-    if any(
-        c.initial_temperature or c.material_temperature or c.temperature
-        for c in case.subcases
-    ):
-        problems += [
-            f"{card.place}: {card.name} with TEMPERATURE in the case control: "
-            "materials do not depend on temperature here; give the constants that hold"
-            for card in bulk.cards
-            if card.name.startswith("MATT") and card.name not in ignore
-        ]
+    cards = [card for card in bulk.cards if card.name not in ignore]
+    problems += _temperature_problems(cards, case.subcases, executive.sol)
     if not problems and any(
         c.initial_temperature and c.temperature for c in case.subcases
     ):
         notices += _own_references(deck)
-    if executive.sol == 101 and any(c.temperature for c in case.subcases):
-        problems += [
-            f"{card.place}: {card.name} with TEMPERATURE(LOAD): temperatures over the "
-            "thickness of shells at points are not supported; expected TEMPP1"
-            for card in bulk.cards
-            if card.name == "TEMPP3" and card.name not in ignore
-        ]
     if not problems:
         problems += check_images(deck, {*sections.superelements})
     parts = _superelements(path, sections, ignore, problems, deck)
@@ -204,9 +190,34 @@ def _own_references(deck: Deck) -> list[str]:
     ]
 
 
+def _temperature_problems(
+    cards: Sequence[RawCard], subcases: Sequence[Subcase], sol: int
+) -> list[str]:
+    """Cards that temperatures would give a meaning, which nothing here carries out."""
+    problems = []
+    if any(
+        c.initial_temperature or c.material_temperature or c.temperature
+        for c in subcases
+    ):
+        problems += [
+            f"{card.place}: {card.name} with TEMPERATURE in the case control: "
+            "materials do not depend on temperature here; give the constants that hold"
+            for card in cards
+            if card.name.startswith("MATT")
+        ]
+    if sol == 101 and any(c.temperature for c in subcases):
+        problems += [
+            f"{card.place}: {card.name} with TEMPERATURE(LOAD): temperatures over the "
+            "thickness of shells at points are not supported; expected TEMPP1"
+            for card in cards
+            if card.name == "TEMPP3"
+        ]
+    return problems
+
+
 def _known_reference(deck: Deck, notices: list[str]) -> Deck:
     """PARAM GRDPNT that names no grid is the origin, as Nastran takes it."""
-    grid = deck.params.get("GRDPNT", 0)
+    grid = int(deck.number("GRDPNT"))
     if grid <= 0 or (deck.cards["GRID"]["id"] == grid).any():
         return deck
     notices.append(
