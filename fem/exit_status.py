@@ -26,7 +26,7 @@ _SIGNALS = tuple(
 )
 _NOBODY_READS = 141  # as of programs that SIGPIPE ends
 _CODES = "ENOSPC EDQUOT EFBIG EROFS EIO ENOMEM EMFILE ENFILE"
-_OF_THE_SYSTEM = {getattr(errno, name, None) for name in _CODES.split()}
+_SYSTEM_FAILURES = {getattr(errno, name, None) for name in _CODES.split()}
 
 
 def run_command(load: Callable[[], Callable[..., Any]], name: str) -> NoReturn:
@@ -86,7 +86,7 @@ def _failure(error: BaseException) -> int:
     if isinstance(error, BrokenPipeError) or _pipe_of(error):
         return _NOBODY_READS
     if isinstance(error, OSError):
-        return _say(f"error: {_place(error)}", 1 if of_the_system(error) else 2)
+        return _say(f"error: {_place(error)}", 1 if is_system_failure(error) else 2)
     if isinstance(error, MemoryError):
         return _say(f"error: out of memory: {error}".rstrip(": "), 1)
     if (show := getattr(error, "show", None)) is not None:  # usage, from click
@@ -117,9 +117,9 @@ def _place(error: OSError) -> str:
     return place + (error.strerror or str(error) or type(error).__name__)
 
 
-def of_the_system(error: BaseException) -> bool:
+def is_system_failure(error: BaseException) -> bool:
     """Disk full, quota, read-only, files beyond a limit: no fault of the input."""
-    return isinstance(error, OSError) and error.errno in _OF_THE_SYSTEM
+    return isinstance(error, OSError) and error.errno in _SYSTEM_FAILURES
 
 
 def _pipe_of(error: BaseException) -> bool:

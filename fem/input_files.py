@@ -19,7 +19,7 @@ def expect_file(path: Path) -> None:
     raise InputError(f"{path}: no such file{nearest(path.name, others)}")
 
 
-def given_bytes(path: Path, what: str, most: int = 100_000_000) -> bytes:
+def input_bytes(path: Path, what: str, most: int = 100_000_000) -> bytes:
     """Content of a file.
 
     Args:
@@ -50,13 +50,13 @@ def given_bytes(path: Path, what: str, most: int = 100_000_000) -> bytes:
         raise InputError(f"{path}: {why}, expected a {what}") from None
 
 
-def given_text(path: Path, what: str, most: int = 100_000_000) -> str:
+def input_text(path: Path, what: str, most: int = 100_000_000) -> str:
     """Text of a file in UTF-8, with or without its mark at the start.
 
     Raises:
-        InputError: see `given_bytes`; or it is no such text.
+        InputError: see `input_bytes`; or it is no such text.
     """
-    data = given_bytes(path, what, most)
+    data = input_bytes(path, what, most)
     if data.startswith(_UTF_16):
         raise InputError(f"{path}: text in UTF-16, expected a {what} in UTF-8")
     try:

@@ -123,7 +123,7 @@ def load_airframe(
     if airframe.select.by_relevance:
         if scenario is None:
             raise ValueError(f"select '{airframe.select}' needs a scenario")
-        candidates = Candidates.of(
+        candidates = Candidates.from_basis(
             structure, basis, airframe, aircraft, scenario, cache
         )
         basis = select_modes(candidates, airframe.select)

@@ -75,7 +75,7 @@ def drop_pulse(
     count = round(duration / step)
     for substep in _SUBSTEPS:
         rows = _fall(
-            _DropLaw.of(gear, share, forward_speed, friction),
+            _DropLaw.from_gear(gear, share, forward_speed, friction),
             sink_rate,
             step / max(1, int(np.ceil(step / substep))),
             step,
@@ -141,7 +141,7 @@ class _DropLaw:
     friction: float
 
     @classmethod
-    def of(
+    def from_gear(
         cls, gear: LandingGear, share: float, speed: float, friction: float
     ) -> "_DropLaw":
         return cls(

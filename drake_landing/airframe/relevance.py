@@ -117,7 +117,7 @@ class Relevance:
     monitor: Float64
 
     @classmethod
-    def of(
+    def rank(
         cls, model: ModalModel, points: Sequence[str], pulses: Sequence[GearPulses]
     ) -> "Relevance":
         """Ranks all elastic modes of a model.

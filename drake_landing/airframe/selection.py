@@ -100,7 +100,7 @@ class Candidates:
     relevance: Relevance
 
     @classmethod
-    def of(
+    def from_basis(
         cls,
         structure: Structure,
         basis: Basis,
@@ -137,10 +137,10 @@ class Candidates:
             reference=model.with_more(modal_model(structure, above, aircraft)),
             pulses=pulses,
             trials=tuple(pulses_of(*factors) for factors in _TRIALS),
-            relevance=Relevance.of(model, tuple(aircraft.monitoring), pulses),
+            relevance=Relevance.rank(model, tuple(aircraft.monitoring), pulses),
         )
 
-    def of_reduced(
+    def with_reduced_basis(
         self, structure: Structure, basis: Basis, aircraft: Aircraft
     ) -> "Candidates":
         """Modes of a reduced model under the same pulses, errors against these here.
@@ -155,7 +155,7 @@ class Candidates:
             self,
             basis=basis,
             model=model,
-            relevance=Relevance.of(model, self.relevance.points, self.pulses),
+            relevance=Relevance.rank(model, self.relevance.points, self.pulses),
         )
 
     def choose(self, select: Selection) -> Choice:
@@ -179,7 +179,7 @@ class Candidates:
         model = self.model.mixed(frequency, mix)
         if len(frequency) > count:
             points = self.relevance.points
-            modes = np.sort(Relevance.of(model, points, self.pulses).order[:count])
+            modes = np.sort(Relevance.rank(model, points, self.pulses).order[:count])
             model = model.of(np.concatenate([np.arange(_RIGID), modes]))
             mix = mix[:, modes - _RIGID]
         return Choice(

@@ -11,7 +11,7 @@ import pandas as pd
 from drake_landing.campaign.axes import Distribution, Value, combined_values, quantiles
 from drake_landing.campaign.schema import Campaign
 from fem.errors import InputError, nearest
-from fem.input_files import given_text
+from fem.input_files import input_text
 
 
 def case_rows(campaign: Campaign) -> pd.DataFrame:
@@ -62,7 +62,7 @@ def _samples(
 
 def _read_csv(path: Path) -> pd.DataFrame:
     """Raises an InputError where it is no table."""
-    text = given_text(path, "CSV table")
+    text = input_text(path, "CSV table")
     try:
         return pd.read_csv(io.StringIO(text))
     except (ValueError, pd.errors.ParserError) as error:

@@ -62,7 +62,7 @@ class _Intervals:
     bend: np.ndarray
 
     @classmethod
-    def of(cls, q: np.ndarray) -> "_Intervals":
+    def from_samples(cls, q: np.ndarray) -> "_Intervals":
         """Of amplitudes (r, t); the last one is repeated until intervals are full."""
         r, t = q.shape
         count = max(1, -(-(t - 1) // _INTERVAL))
@@ -97,7 +97,7 @@ def screen(
             increments alone.
     """
     q = np.ascontiguousarray(amplitudes, dtype=np.float32)
-    intervals = _Intervals.of(q)
+    intervals = _Intervals.from_samples(q)
     state = Extremes.zero(sum(r.size for r in rows))
     for i, (part, at) in enumerate(zip(rows, starts(rows))):
         modes = basis.stress[i]

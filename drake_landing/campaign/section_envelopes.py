@@ -40,7 +40,7 @@ class SectionLoads:
     hull: Float64 = field(repr=False)
 
     @classmethod
-    def of(cls, group: h5py.Group) -> "SectionLoads":
+    def from_hdf5(cls, group: h5py.Group) -> "SectionLoads":
         """From a case file."""
         sides = [
             np.stack([np.asarray(group[k], float) for k in (side, f"time_of_{side}")])
@@ -77,7 +77,7 @@ class SectionEnvelope:
     corners: list[Float64] = field(default_factory=list, repr=False)
 
     @classmethod
-    def of(cls, first: SectionLoads) -> "SectionEnvelope":
+    def from_loads(cls, first: SectionLoads) -> "SectionEnvelope":
         """Without any landing, for the cuts of one."""
         extreme = np.zeros((*first.extreme.shape[:3], 3))
         extreme[0, ..., 0], extreme[1, ..., 0] = np.inf, -np.inf

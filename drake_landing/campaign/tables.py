@@ -219,11 +219,11 @@ def _stations(result: CampaignResult, kind: str) -> tuple[pd.DataFrame, pd.DataF
     for number in result.flown:
         with h5py.File(case_file(result.cases, number)) as file:
             for name, group in file[kind].items():
-                landing = SectionLoads.of(group)
+                landing = SectionLoads.from_hdf5(group)
                 name = str(group.attrs.get("name", name))
                 key = name, tuple(landing.station.tolist())
                 if key not in found:
-                    found[key] = SectionEnvelope.of(landing)
+                    found[key] = SectionEnvelope.from_loads(landing)
                 found[key].add(landing, number)
     tables = [own.tables(name) for (name, _), own in found.items()]
     if not tables:

@@ -31,7 +31,9 @@ class Places:
     sections: frozenset[str] = field(default=frozenset(), compare=False)
 
     @classmethod
-    def of(cls, file: str, tree: yaml.Node, sections: frozenset[str]) -> "Places":
+    def from_yaml(
+        cls, file: str, tree: yaml.Node, sections: frozenset[str]
+    ) -> "Places":
         """Of a composed YAML document."""
         return cls(file, dict(_lines(tree, "")), sections)
 

@@ -18,7 +18,7 @@ from drake_landing.case.document import document_text, read_document
 from drake_landing.case.field_lines import Places
 from drake_landing.case.schema import Case
 from fem.errors import InputError, nearest
-from fem.input_files import given_text
+from fem.input_files import input_text
 
 _MOST_BYTES = 20_000_000
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
@@ -93,7 +93,7 @@ def parse_model(
         raise InputError(
             f"{file}:1: expected a mapping of sections, found {_kind(data)}"
         )
-    places = Places.of(file, tree, frozenset(model.model_fields))
+    places = Places.from_yaml(file, tree, frozenset(model.model_fields))
     problems = [f"{file}:{line}: {text}" for line, text in _repeated_keys(tree)]
     data.pop("$schema", None)  # for editors
     try:
@@ -125,7 +125,7 @@ def read_text(path: Path) -> str:
     Raises:
         InputError: it cannot be read.
     """
-    return given_text(path, "case file", _MOST_BYTES)
+    return input_text(path, "case file", _MOST_BYTES)
 
 
 def _kind(data: Any) -> str:

@@ -31,7 +31,7 @@ class DenseRows:
     coefficient: Float64 = field(repr=False)
 
     @classmethod
-    def of(cls, operator: sp.csr_matrix, elements: int) -> "DenseRows":
+    def from_sparse(cls, operator: sp.csr_matrix, elements: int) -> "DenseRows":
         """Of (e k, n) rows, k an element."""
         rows, n = shape_of(operator)
         k = rows // max(elements, 1)

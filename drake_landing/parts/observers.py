@@ -191,7 +191,7 @@ class PartsWatch:
         }
         return {name: seen for name, seen in all_three.items() if seen is not None}
 
-    def found(self, loads: Sequence[AttachmentLoads]) -> PartsFound:
+    def collect(self, loads: Sequence[AttachmentLoads]) -> PartsFound:
         """After the transient, whose load cases these loads are."""
         cases = [self._case(i, load) for i, load in enumerate(loads)]
         worst = {

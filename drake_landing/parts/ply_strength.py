@@ -136,7 +136,9 @@ def _ply(
     strength = material.strength
     if isotropic and strength is not None and np.isnan(own) and strength.xt > 0.0:
         own = strength.xt
-    whole = strength is not None and strength.given("" if theory != "STRN" else theory)
+    whole = strength is not None and strength.suffices_for(
+        "" if theory != "STRN" else theory
+    )
     taken = strength if whole and not isotropic and np.isnan(own) else None
     plane = np.zeros((3, 3)) if material.plane is None else material.plane
     return PlyLimit(

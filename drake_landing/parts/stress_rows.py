@@ -192,14 +192,16 @@ class StressMaps:
     def maps(self) -> tuple[Map, ...]:
         """As kernels take them."""
         return tuple(
-            operator if rows.kind == "other" else DenseRows.of(operator, rows.size)
+            operator
+            if rows.kind == "other"
+            else DenseRows.from_sparse(operator, rows.size)
             for rows, operator in zip(self.rows, self.operators)
         )
 
 
 def stress_maps(stresses: Stresses) -> StressMaps:
     """All parts, those that are sheets or lines recognised as such."""
-    extension = Extension.of(stresses.expand)
+    extension = Extension.from_expansion(stresses.expand)
     found = [_recognised(part) for part in stresses.parts]
     return StressMaps(
         rows=tuple(rows for rows, _ in found),

@@ -113,7 +113,7 @@ def full_response(
     )
 
     stages.begin("tables of the parts")
-    parts = watch.found(loads)
+    parts = watch.collect(loads)
     practices = None
     if slices is not None and len(loads) > 1:
         at_rest = static_slices(

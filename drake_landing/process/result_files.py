@@ -17,7 +17,7 @@ from drake_landing.results.late_extremes import flagged
 from drake_landing.results.readme import write_readme
 from drake_landing.results.result import ProcessResult
 from drake_landing.transient.extremes import worst_elements
-from fem.exit_status import of_the_system
+from fem.exit_status import is_system_failure
 
 
 def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
@@ -72,7 +72,7 @@ def _at_most_lost(what: str, lost: list[str]) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        if of_the_system(error):
+        if is_system_failure(error):
             raise
         lost.append(f"{what} could not be made: {type(error).__name__}: {error}")
 
@@ -110,21 +110,21 @@ def write_files(result: ProcessResult, out: Path) -> None:
         tables.section_envelopes(parts),
     )
     extremes = {
-        "worst_elements": elements.assign(unit=units.of_element_results(elements)),
+        "worst_elements": elements.assign(unit=units.element_result_units(elements)),
         "worst_stresses": tables.stacked(worst, tables.axial_elements(parts.judged)),
-        "section_loads": sections.assign(unit=units.of_quantities(sections)),
+        "section_loads": sections.assign(unit=units.quantity_units(sections)),
     }
     for name, table in extremes.items():
         late = flagged(table, result.loads.time[-1], result.swing)
         write_csv(out / f"{name}.csv", units.with_units(late))
     if parts.stations:
         monitors = tables.monitor_extremes(parts)
-        monitors = monitors.assign(unit=units.of_quantities(monitors))
+        monitors = monitors.assign(unit=units.quantity_units(monitors))
         late = flagged(monitors, result.loads.time[-1], result.swing)
         write_csv(out / "monitor_points.csv", units.with_units(late))
         over_time = units.with_units(tables.monitors_over_time(parts))
         write_csv(out / "monitor_histories.csv", over_time, index=True)
-    gears = result.gears.assign(unit=units.of_quantities(result.gears))
+    gears = result.gears.assign(unit=units.quantity_units(result.gears))
     write_csv(out / "gears.csv", flagged(gears, history.time[-1], result.swing))
     write_csv(out / "late_extremes.csv", units.with_units(result.late))
     roots = units.with_units(tables.root_histories(parts))

@@ -43,7 +43,7 @@ from drake_landing.process.condition_tables import (
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter, Silent
 from drake_landing.results.stages import Stages
-from drake_landing.results.units import of_quantities
+from drake_landing.results.units import quantity_units
 from drake_landing.transient.static_deck import (
     LABEL_WIDTH,
     StaticCase,
@@ -262,7 +262,7 @@ def write_tables(result: ConditionsResult, out: Path) -> None:
     }
     for name, table in tables.items():
         if name != "monitor_points" or len(table):
-            units = of_quantities(table)
+            units = quantity_units(table)
             own = table.assign(unit=units) if len(units) else table
             write_csv(out / f"{name}.csv", with_headings(own))
 

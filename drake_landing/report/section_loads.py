@@ -67,7 +67,7 @@ def section_loads(result: "ProcessResult") -> Section:
         "fuselages are to starboard; they are drawn where they reach "
         f"{_SHARE:.0%} of the others. The axes in the deck stand in the table. "
         "Moments refer to a point of each cut, in the table: "
-        f"{_points_said(found)}. Shaded: extremes over time; dashed: at the instant "
+        f"{_points_text(found)}. Shaded: extremes over time; dashed: at the instant "
         "when bending is largest at the cut whose histories follow. The equilibrium of "
         "the whole airframe is missed by "
         f"{found.imbalance[0]:.0e} of the largest applied force and "
@@ -125,7 +125,7 @@ def monitor_points(result: "ProcessResult") -> Section:
     )
 
 
-def _points_said(found: PartsFound) -> str:
+def _points_text(found: PartsFound) -> str:
     lines = [name for name, cuts in found.cuts.items() if cuts.beam.line is not None]
     if len(lines) == len(found.cuts):
         return "where the part's reference line meets the cut"

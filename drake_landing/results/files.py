@@ -39,7 +39,7 @@ from drake_landing.landing.history import LandingHistory
 from drake_landing.parts.cuts import COMPONENTS, NAMED
 from drake_landing.results.units import (
     element_unit,
-    of_quantities,
+    quantity_units,
     unit_of,
     with_units,
 )
@@ -119,7 +119,7 @@ def write_results(
         _write_parts(file.create_group("parts"), parts)
         _write_airframe(file.create_group("airframe"), body, R_AB)
         _write_table(file.create_group("comparison"), comparison)
-        peaks = gears.assign(unit=of_quantities(gears))
+        peaks = gears.assign(unit=quantity_units(gears))
         _write_table(file.create_group("gears"), peaks)
 
 

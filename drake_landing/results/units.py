@@ -60,7 +60,7 @@ def _heading(column: str) -> str:
     return f"{column} [{unit}]" if unit and unit != "1" else column
 
 
-def of_quantities(table: pd.DataFrame) -> pd.Series:
+def quantity_units(table: pd.DataFrame) -> pd.Series:
     """Unit of each row of a table by its column `quantity`, if it has rows."""
     if "quantity" not in table:
         return pd.Series(dtype=object)
@@ -68,7 +68,7 @@ def of_quantities(table: pd.DataFrame) -> pd.Series:
     return pd.Series(units, index=table.index, dtype=object)
 
 
-def of_element_results(table: pd.DataFrame) -> pd.Series:
+def element_result_units(table: pd.DataFrame) -> pd.Series:
     """Unit of each row of a table with `result`, `type`, `column` (Nastran's names)."""
     rows = zip(table["result"], table["type"], table["column"])
     units = [element_unit(result, kind, column) for result, kind, column in rows]

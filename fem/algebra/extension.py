@@ -28,7 +28,7 @@ class Extension:
     dependent: sp.csr_matrix = field(repr=False)
 
     @classmethod
-    def of(cls, expand: sp.csr_matrix) -> "Extension":
+    def from_expansion(cls, expand: sp.csr_matrix) -> "Extension":
         """Of u_g = T u_f (g, f)."""
         T = sp.csr_matrix(expand, copy=True)
         T.eliminate_zeros()
@@ -79,9 +79,11 @@ class CondensedProduct:
     free: int
 
     @classmethod
-    def of(cls, matrix: sp.csr_matrix, expand: sp.csr_matrix) -> "CondensedProduct":
+    def from_matrix(
+        cls, matrix: sp.csr_matrix, expand: sp.csr_matrix
+    ) -> "CondensedProduct":
         """Of A (g, g) and T (g, f)."""
-        extension = Extension.of(expand)
+        extension = Extension.from_expansion(expand)
         half = extension.rows(matrix)  # (g, f + d)
         whole = extension.rows(sp.csr_matrix(half.T)).T
         columns = np.unique(extension.dependent.indices)

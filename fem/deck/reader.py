@@ -37,7 +37,7 @@ from fem.deck.superelements.images import (
     check_images,
     images,
     mirrored,
-    of_primaries,
+    primaries_first,
     with_primary,
 )
 from fem.deck.superelements.main_section import main_superelements
@@ -366,7 +366,7 @@ def _superelements(
     """Decks of the BEGIN SUPER=n sections and of images of them."""
     decks, copies = {}, {} if problems else images(main)
     read = {n: read_cards(lines) for n, lines in sections.superelements.items()}
-    for number in of_primaries(copies, {*read}):
+    for number in primaries_first(copies, {*read}):
         bulk, notices = read.get(number), []
         if number in copies:
             bulk = with_primary(bulk, read[copies[number]])

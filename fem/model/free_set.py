@@ -120,7 +120,7 @@ class FreeSet:
     def mass_product(self) -> CondensedProduct:
         """Products with M, by its factors."""
         T = self.support.elimination.T
-        return CondensedProduct.of(self.model.matrices.mass, T)
+        return CondensedProduct.from_matrix(self.model.matrices.mass, T)
 
     @cached_property
     def damping(self) -> Damping:

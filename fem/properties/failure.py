@@ -44,7 +44,7 @@ class Strength:
     f12: float
     strain: tuple[float, ...]
 
-    def given(self, theory: str) -> bool:
+    def suffices_for(self, theory: str) -> bool:
         """Whether everything is there, and positive, that a theory needs."""
         if theory == "STRN":
             return all(value > 0.0 for value in self.strain)

@@ -291,7 +291,9 @@ def _without_strength(
 ) -> list[int]:
     """Materials of a PCOMP that lack what its failure theory needs."""
     strengths = {int(mid): materials[int(mid)].strength for mid in row["mids"]}
-    return [mid for mid, s in strengths.items() if s is None or not s.given(theory)]
+    return [
+        mid for mid, s in strengths.items() if s is None or not s.suffices_for(theory)
+    ]
 
 
 def strength_notices(deck: "Deck") -> list[str]:

@@ -92,8 +92,8 @@ class FlexibleAirframe(LeafSystem):
         super().__init__()
         self.n = n = body.n
         self._scale = scale = mode_scales(body)
-        self._nodes = Nodes.of(body, attachment_nodes, scale)
-        self._monitors = Nodes.of(body, monitor_nodes, scale)
+        self._nodes = Nodes.from_body(body, attachment_nodes, scale)
+        self._monitors = Nodes.from_body(body, monitor_nodes, scale)
         self._mass, self._inertia = body.mass, body.inertia_G
         self._modal_mass = body.modal_mass * scale**2
         self._stiffness = (2.0 * np.pi * body.frequency) ** 2

@@ -63,7 +63,9 @@ class Nodes:
     compliance: Float64
 
     @classmethod
-    def of(cls, body: ModalBody, node_id: npt.ArrayLike, scale: Float64) -> "Nodes":
+    def from_body(
+        cls, body: ModalBody, node_id: npt.ArrayLike, scale: Float64
+    ) -> "Nodes":
         """The given grids, in the given order; ValueError names those not there."""
         rows = body.rows(np.asarray(node_id, dtype=np.int64))
         shape = np.stack([body.rotation[rows], body.translation[rows]], axis=1)

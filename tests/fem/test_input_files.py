@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 
 from fem.errors import InputError
-from fem.input_files import given_text
+from fem.input_files import input_text
 
 
 def test_text_with_and_without_a_mark(tmp_path):
     path = tmp_path / "a"
     for mark in (b"", b"\xef\xbb\xbf"):
         path.write_bytes(mark + "é".encode())
-        assert given_text(path, "case file") == "é"
+        assert input_text(path, "case file") == "é"
 
 
 @pytest.mark.timeout(10)
@@ -33,10 +33,10 @@ def test_what_is_no_text_file_is_named(tmp_path, make, words):
     path = tmp_path / "a"
     make(path)
     with pytest.raises(InputError, match=words) as caught:
-        given_text(path, "case file", 100)
+        input_text(path, "case file", 100)
     assert str(caught.value).startswith(str(path))
 
 
 def test_names_that_no_file_can_have():
     with pytest.raises(InputError, match="null"):
-        given_text(Path("a\0b"), "case file")
+        input_text(Path("a\0b"), "case file")

@@ -92,7 +92,7 @@ def study_airframe(
         progress.share(done / max(wanted, 1), f"{done} modes")
 
     basis = elastic_basis(structure, case.airframe, nodes, told, cache=cache)
-    candidates = Candidates.of(
+    candidates = Candidates.from_basis(
         structure, basis, case.airframe, aircraft, case.scenario, cache
     )
     reduced = {}
@@ -100,7 +100,7 @@ def study_airframe(
         progress.stage(f"{NAMES[name]} reduction to {len(nodes)} grids, its modes")
         settings = case.airframe.model_copy(update={"basis": name})
         basis = elastic_basis(structure, settings, nodes, cache=cache)
-        reduced[name] = candidates.of_reduced(structure, basis, aircraft)
+        reduced[name] = candidates.with_reduced_basis(structure, basis, aircraft)
     return StudyAirframe(
         case=case,
         aircraft=aircraft,

@@ -51,7 +51,7 @@ def offsets(whole: list[Tables], part: Tables, number: int) -> dict[str, int]:
     return found
 
 
-def shifts_said(number: int, offsets: Mapping[str, int]) -> list[str]:
+def shift_notices(number: int, offsets: Mapping[str, int]) -> list[str]:
     shifted = [f"{kind} + {shift}" for kind, shift in offsets.items() if shift]
     if not shifted:
         return []

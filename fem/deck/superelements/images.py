@@ -185,6 +185,6 @@ def _reflected_masses(table: pd.DataFrame, reflect: Float64) -> pd.DataFrame:
     return table
 
 
-def of_primaries(copies: Mapping[int, int], numbers: set[int]) -> list[int]:
+def primaries_first(copies: Mapping[int, int], numbers: set[int]) -> list[int]:
     """Superelements in an order in which images follow their primaries."""
     return sorted({*numbers, *copies}, key=lambda n: (n in copies, n))

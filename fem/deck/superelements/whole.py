@@ -22,7 +22,7 @@ from fem.deck.superelements.ids import (
     ids_of_kind,
     offsets,
     renamed,
-    shifts_said,
+    shift_notices,
 )
 from fem.deck.superelements.joining import join_points, merge_points
 from fem.deck.superelements.matrices import TYPES as EXTERNAL
@@ -90,7 +90,7 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         whole, lists = with_monitors(whole, maps[number], start, number, sets)
         grid_lists |= lists
         tables.append(whole)
-        notices += shifts_said(number, maps[number])
+        notices += shift_notices(number, maps[number])
         given[number] = _points(part)
     external = [n in _of_types(deck, EXTERNAL) for n in (0, *sorted(parts))]
     cards = _stacked(tables, external, problems)

@@ -60,7 +60,9 @@ def basis(structure: Structure, aircraft: Aircraft) -> Basis:
 @pytest.fixture(scope="module")
 def candidates(structure: Structure, basis: Basis, aircraft: Aircraft) -> Candidates:
     case = tiny()
-    return Candidates.of(structure, basis, case.airframe, aircraft, case.scenario)
+    return Candidates.from_basis(
+        structure, basis, case.airframe, aircraft, case.scenario
+    )
 
 
 @pytest.fixture(scope="module")
@@ -116,7 +118,7 @@ def test_symmetric_landings_leave_antisymmetric_modes_out(
     assert not lateral[most].any()
     case = tiny(scenario=", roll: 3")
     assert not is_symmetric(case.scenario)
-    rolled = Candidates.of(
+    rolled = Candidates.from_basis(
         structure, basis, case.airframe, aircraft, case.scenario
     ).relevance
     one, other = model.monitor[3, 2], model.monitor[4, 2]  # wing tips
@@ -172,7 +174,7 @@ def test_a_mode_that_nobody_sees_comes_last() -> None:
 
     load = np.sin(np.linspace(0, 3, 200))[None, :, None] * rng.normal(size=6)
     pulse = GearPulses(names=("g",), node_id=np.array([7]), step=1e-3, load=load)
-    ranked = Relevance.of(model, ("a", "b"), [pulse])
+    ranked = Relevance.rank(model, ("a", "b"), [pulse])
     assert set(ranked.order) == {1, 2, 3}
     assert ranked.order[-1] == 2
     assert ranked.error(ranked.order[:2]).max() == 0.0

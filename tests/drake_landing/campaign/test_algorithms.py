@@ -188,8 +188,8 @@ def test_section_envelopes_thin_out_without_losing_corners(
     rng = np.random.default_rng(5)
     with h5py.File("none", "w", driver="core", backing_store=False) as file:
         landings = [_landing(file, rng) for _ in range(40)]
-        loads = [section_envelopes.SectionLoads.of(group) for group in landings]
-        own = section_envelopes.SectionEnvelope.of(loads[0])
+        loads = [section_envelopes.SectionLoads.from_hdf5(group) for group in landings]
+        own = section_envelopes.SectionEnvelope.from_loads(loads[0])
         for number, landing in enumerate(loads):
             own.add(landing, number)
         assert sum(map(len, own.corners)) <= 100 + 60

@@ -98,7 +98,7 @@ def watch(structure: Structure, aircraft: Aircraft, loads, strained) -> PartsWat
 
 @pytest.fixture(scope="module")
 def found(watch: PartsWatch, loads: AttachmentLoads) -> PartsFound:
-    return watch.found([loads, half(loads)])
+    return watch.collect([loads, half(loads)])
 
 
 def half(loads: AttachmentLoads) -> AttachmentLoads:
@@ -137,7 +137,7 @@ def test_stresses_upon_steady_flight_add_up(
         steady=steady,
     )
     transient_response(structure, loads, aircraft.monitoring, observers=seen.observers)
-    upon = seen.found([loads])
+    upon = seen.collect([loads])
     assert upon.total is not None
     u = strained[0].values[:, 0] + steady
     highest = seen.stresses.of(u.T)[..., 0].max(axis=0)

@@ -141,7 +141,7 @@ def test_each_load_case_ends_at_its_own_time(structure: Structure, apart: bool) 
 
 def test_elements_at_a_constraint_hang_on_their_own_grids(structure: Structure) -> None:
     """The bar on the RBE3's grid has twelve freedoms, not those of four grids."""
-    found = Extension.of(structure.elimination.T)
+    found = Extension.from_expansion(structure.elimination.T)
     assert found.dependent.shape[0] == 12
     maps = stress_maps(stresses(structure))
     assert max(int(np.diff(o.indptr).max()) for o in maps.operators) <= 24
