@@ -74,7 +74,7 @@ class Aircraft:
 
     @property
     def steady_load(self) -> Callable[[Structure], Float64] | None:
-        """Loads of steady flight at 1 g from a structure, where they are known."""
+        """Loads (g,), N, on a structure in steady flight at 1 g, where known."""
         if self.steady is None and self.parametric is not None:
             return self.parametric.steady_load
         return self.steady

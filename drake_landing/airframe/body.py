@@ -59,7 +59,7 @@ class AirframeModel:
 
     @property
     def highest_hz(self) -> float:
-        """Of the elastic modes; 0 for a rigid airframe."""
+        """Hz, of the elastic modes; 0 for a rigid airframe."""
         return float(self.body.frequency[-1]) if self.body.n else 0.0
 
     @property

@@ -74,7 +74,7 @@ class Choice:
 
     @property
     def highest_hz(self) -> float:
-        """0 for a rigid airframe."""
+        """Hz; 0 for a rigid airframe."""
         return float(self.frequency_hz.max(initial=0.0))
 
 

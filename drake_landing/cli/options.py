@@ -24,6 +24,11 @@ def out_option(default: str) -> Any:
 
 
 def expect_deck(path: Path) -> None:
+    """Checks that a deck is there, and no case file.
+
+    Raises:
+        InputError: it is not.
+    """
     from fem.errors import InputError
     from fem.input_files import expect_file
 
@@ -44,4 +49,5 @@ def read_case(path: Path) -> "Case":
 
 
 def default_folder(case: "Case") -> Path:
+    """Where the results of a case go."""
     return Path("out", case.name)

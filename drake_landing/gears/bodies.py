@@ -133,7 +133,7 @@ def tip_below_root(gear: LandingGear, p_BA: Float64) -> float | None:
 
 
 def cylinder_body(gear: LandingGear, p_BA: Float64) -> tuple[str, Float64]:
-    """The body that what is above the stroke and bends belongs to, its origin in B."""
+    """The body that bends above the stroke, by name, and its origin (3,) in B, m."""
     kind = last_bending(gear)
     if kind is None:
         return f"{gear.name}_fitting", p_BA

@@ -63,7 +63,7 @@ class AttachmentLoads:
         return float(self.time[-1] - self.time[0]) / (len(self.time) - 1)
 
     def held(self) -> tuple[Float64, Float64]:
-        """Time and load with a last value held for two steps beyond the end.
+        """Time (t + 2,) s and load with a last value held for two steps beyond the end.
 
         The integrator looks one step ahead.
         """
@@ -80,7 +80,7 @@ class AttachmentLoads:
 
 
 def time_grid(step: float, duration: float) -> Float64:
-    """0, step, ... : the last instant is the first that is not before the duration."""
+    """(t,) 0, step, ..., s: the last one is the first not before the duration."""
     count = int(np.ceil(duration / step - 1e-6))
     return step * np.arange(count + 1)
 

@@ -54,12 +54,13 @@ class EigenProblem:
 
     @property
     def n(self) -> int:
+        """Order of the matrices."""
         return len(self.mass.indptr) - 1
 
     def solve(
         self, count: int | None, limits: tuple[float, float]
     ) -> tuple[Float64, Float64, list[SturmCount]]:
-        """Eigenvalues, shapes and counts in a band of eigenvalues."""
+        """Eigenvalues (m,), (rad/s)², shapes (n, m) and counts in a band of them."""
         if self.n <= DENSE_LIMIT or (count or 0) > self.n // 4:
             return self._dense(count, limits)
         low, high = limits
@@ -76,6 +77,7 @@ class EigenProblem:
         return self._slices(low, high, below, total, count)
 
     def count(self, eigenvalue: float) -> int:
+        """Number of eigenvalues below one, by Sylvester's law."""
         return count_below(self.stiffness, self.mass, eigenvalue, solver=self.solver)
 
     # -- small problems ---------------------------------------------------------------

@@ -44,7 +44,7 @@ def orthonormal_rest(
 
 
 def nearest_orthonormal(shapes: Float64, mass: sp.csr_matrix) -> Float64:
-    """The M-orthonormal basis that is nearest to nearly orthonormal shapes."""
+    """(n, k) M-orthonormal basis nearest to nearly orthonormal shapes (n, k)."""
     if shapes.shape[1] == 0:
         return shapes
     gram = shapes.T @ (mass @ shapes)
@@ -53,7 +53,7 @@ def nearest_orthonormal(shapes: Float64, mass: sp.csr_matrix) -> Float64:
 
 
 def gram_schmidt(vectors: Float64, mass: sp.csr_matrix) -> Float64:
-    """M-orthonormal basis of the span of vectors that may depend on each other."""
+    """(n, r) M-orthonormal basis of vectors (n, k), which may be dependent."""
     chosen: list[Float64] = []
     for vector in vectors.T:
         length = np.sqrt(vector @ (mass @ vector))

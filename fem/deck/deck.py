@@ -79,7 +79,7 @@ class Deck:
         return self.params.get(name, {**DEFAULTS, **CELLS}[name])
 
     def number(self, name: str) -> float:
-        """Value of a numeric parameter, see `param`."""
+        """Value of a numeric parameter in units of the deck, see `param`."""
         return float(self.param(name))
 
     def subcase(self, number: int) -> Subcase:

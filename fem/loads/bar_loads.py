@@ -54,7 +54,7 @@ class _Lines:
 def bar_loads(
     deck: "Deck", points: Points, rows: pd.DataFrame
 ) -> tuple[Int64, Float64]:
-    """Rows of the g-set and values of PLOAD1 cards.
+    """Rows of the g-set (n,) and forces and moments (n,) of PLOAD1 cards.
 
     Raises:
         InputError: unknown types or scales, positions outside the element.

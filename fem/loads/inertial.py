@@ -98,7 +98,7 @@ ACCELERATIONS: dict[str, Callable[[Points, pd.Series], Float64]] = {
 
 
 def accelerations(points: Points, card: str, rows: pd.DataFrame) -> Float64:
-    """Sum of the fields of all cards of one name, a vector of the g-set."""
+    """(g,) sum of the acceleration fields of all cards of one name."""
     total = np.zeros(points.size)
     for _, row in rows.iterrows():
         total += ACCELERATIONS[card](points, row)

@@ -49,7 +49,7 @@ class _Collected:
 
 
 def pload(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Float64]:
-    """Rows of the g-set and values of PLOAD cards: areas between grids."""
+    """Rows of the g-set (n,) and forces (n,) of PLOAD cards: areas between grids."""
     corners = rows[["g1", "g2", "g3", "g4"]].to_numpy(np.int64)
     pressure = rows["p"].to_numpy(np.float64)
     found = {3: _Collected(), 4: _Collected()}
@@ -62,7 +62,7 @@ def pload(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Floa
 
 
 def pload2(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Float64]:
-    """Rows of the g-set and values of PLOAD2 cards."""
+    """Rows of the g-set (n,) and forces (n,) of PLOAD2 cards."""
     rows = rows.assign(
         **{f"p{k}": rows["p"] for k in (1, 2, 3, 4)},
         **dict.fromkeys(("cid", "g1", "g34"), 0),

@@ -45,7 +45,7 @@ class Weight:
 
     @property
     def total(self) -> float:
-        """Mass, mean of the three axes, equal unless masses act in one direction."""
+        """Mean of three axes, equal unless masses act in one direction; deck units."""
         return float(self.mass.mean())
 
     @property

@@ -52,7 +52,7 @@ class Laminate:
 
     @property
     def total(self) -> float:
-        """Thickness of the laminate."""
+        """Thickness of the laminate, length of the deck."""
         return float(self.thickness.sum())
 
     @property

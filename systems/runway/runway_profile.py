@@ -51,9 +51,11 @@ class CosineBump:
 
     @property
     def max_curvature(self) -> float:
+        """See `Profile`."""
         return 2.0 * abs(self.height) * (math.pi / self.length) ** 2
 
     def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        """See `Profile`."""
         u = d - self.start
         if u <= 0.0 or u >= self.length:
             return 0.0, 0.0, 0.0
@@ -81,9 +83,11 @@ class Waves:
 
     @property
     def max_curvature(self) -> float:
+        """See `Profile`."""
         return abs(self.amplitude) * (2.0 * math.pi / self.wavelength) ** 2
 
     def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        """See `Profile`."""
         k = 2.0 * math.pi / self.wavelength
         s = sin(k * (d - self.start))
         slope = self.amplitude * k * cos(k * (d - self.start))
@@ -111,9 +115,11 @@ class Step:
 
     @property
     def max_curvature(self) -> float:
+        """See `Profile`."""
         return 0.5 * abs(self.height) * (math.pi / self.ramp) ** 2
 
     def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        """See `Profile`."""
         u = d - self.start
         if u <= 0.0:
             return 0.0, 0.0, 0.0
@@ -165,6 +171,7 @@ class MeasuredProfile:
 
     @property
     def max_curvature(self) -> float:
+        """See `Profile`."""
         ends = [0.0]
         for i, (a, b) in enumerate(pairwise(self.distance)):
             # The curvature of a cubic is largest at one of its ends.
@@ -172,6 +179,7 @@ class MeasuredProfile:
         return max(ends)
 
     def shape(self, d: Scalar) -> tuple[Scalar, Scalar, float]:
+        """See `Profile`."""
         if d <= self.distance[0]:
             return self.height[0], 0.0, 0.0
         if d >= self.distance[-1]:

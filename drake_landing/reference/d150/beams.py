@@ -111,5 +111,5 @@ def middles(p: Float64) -> Float64:
 
 
 def logarithmic(x: Float64, knots: Float64, values: Float64) -> Float64:
-    """Interpolation linear in the logarithm, as stiffness falls along a span."""
+    """(n,) at x (n,): linear in the logarithm, as stiffness falls outward."""
     return np.exp(np.interp(x, knots, np.log(values)))

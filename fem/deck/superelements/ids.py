@@ -28,6 +28,7 @@ def key_of_kind(name: str) -> tuple[str, str]:
 
 
 def ids_of_kind(tables: Mapping[str, pd.DataFrame], kind: str) -> set[int]:
+    """Ids of a kind (point, element, frame, ...) that the tables have."""
     found: set[int] = set()
     for name, table in tables.items():
         column, own = key_of_kind(name)
@@ -52,6 +53,7 @@ def offsets(whole: list[Tables], part: Tables, number: int) -> dict[str, int]:
 
 
 def shift_notices(number: int, offsets: Mapping[str, int]) -> list[str]:
+    """A line that says what is added to the ids of a part, if anything is."""
     shifted = [f"{kind} + {shift}" for kind, shift in offsets.items() if shift]
     if not shifted:
         return []

@@ -45,18 +45,23 @@ class Fields:
         return len(self.card.fields)
 
     def text(self, index: int) -> str:
+        """Text of a field, '' where it is blank."""
         return self.card.field(index)
 
     def integer(self, index: int, name: str, default: int | None = None) -> int:
+        """An integer; `default` where the field is blank. `Malformed` names it."""
         return self._value(index, name, default, integer, "an integer")
 
     def real(self, index: int, name: str, default: float | None = None) -> float:
+        """A real number, see `integer`."""
         return self._value(index, name, default, real, "a real number")
 
     def components(self, index: int, name: str, default: str | None = None) -> str:
+        """Digits of components, see `integer`."""
         return self._value(index, name, default, components, "component digits")
 
     def word(self, index: int, name: str, default: str | None = None) -> str:
+        """A word in capitals, see `integer`."""
         return self._value(index, name, default, word, "a word")
 
     def reals(self, start: int, count: int, name: str, default: float) -> list[float]:

@@ -43,10 +43,12 @@ class RawCard:
 
     @property
     def name(self) -> str:
+        """Name of the card, capitals."""
         return self.fields[0]
 
     @property
     def place(self) -> str:
+        """File and line where it begins."""
         return f"{self.file}:{self.line}"
 
     def field(self, index: int) -> str:

@@ -49,12 +49,15 @@ class Connectors(DenseBlock):
     ge: Float64
 
     def stiffness(self) -> Float64:
+        """(e, n, n) of six springs between the feet."""
         return congruence(self.motion, self.k[:, :, None] * np.eye(6))
 
     def structural_damping(self) -> Float64 | None:
+        """(e,) GE."""
         return some(self.ge)
 
     def mass(self, *, coupled: bool) -> Float64 | None:
+        """(e, n, n) half at each foot."""
         if not np.any(self.m):
             return None
         half = 0.5 * self.m[:, None, None] * np.eye(6)

@@ -76,6 +76,7 @@ class Bar(MassInSection, LineBlock):
         return bar_stiffness(self.geometry.length, self.section, self.material)
 
     def mass(self, *, coupled: bool) -> Float64:
+        """(e, 12, 12) lumped or coupled, see `beam_mass`."""
         length, s, rho = self.geometry.length, self.section, self.material.rho
         torsion = rho * (s.i1 + s.i2) * self.mass_of_beam
         line = _line_mass(rho * s.a + s.nsm, torsion)
@@ -110,6 +111,7 @@ class Bar(MassInSection, LineBlock):
         )
 
     def forces(self) -> Recovery:
+        """Moments at both ends, shear, axial force and torque."""
         return Recovery(
             table=self.card,
             columns=BAR_FORCE,
@@ -118,6 +120,7 @@ class Bar(MassInSection, LineBlock):
         )
 
     def stresses(self) -> Recovery:
+        """Direct stresses at C, D, E, F of both ends, axial stress, extremes."""
         return BarStress(
             table=self.card,
             columns=BAR_STRESS,

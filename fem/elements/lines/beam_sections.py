@@ -43,6 +43,7 @@ class BeamSection:
 
 
 def is_uniform(row: pd.Series) -> bool:
+    """Whether a PBEAM is the same at all its stations."""
     sequences = [np.asarray(row[f"{name}s"], float) for name in _VARYING]
     offsets = [f"{p}{i}" for p in "mn" for i in (1, 2)]
     ends = [(row[f"{o}a"], row[f"{o}b"]) for o in offsets]

@@ -115,6 +115,7 @@ class LineBlock(DenseBlock, ABC):
         return self._condensed[0]
 
     def stiffness(self) -> Float64:
+        """(e, n, n) of the grids: that of the ends with pins and offsets."""
         return congruence(self._map, self._at_ends)
 
     def differential_stiffness(
@@ -135,6 +136,7 @@ class LineBlock(DenseBlock, ABC):
         return matrix
 
     def structural_damping(self) -> Float64 | None:
+        """(e,) GE of the material."""
         return some(self.material.ge)
 
     def strains(self) -> Recovery:

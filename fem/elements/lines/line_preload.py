@@ -142,5 +142,5 @@ def shear_ratio(bending: Float64, shear: Float64, length: Float64) -> Float64:
 
 
 def over(a: Float64, b: Float64) -> Float64:
-    """a / b, zero where b is."""
+    """(e,) a / b, zero where b is."""
     return np.divide(a, b, out=np.zeros_like(a), where=b != 0.0)

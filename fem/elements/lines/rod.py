@@ -59,6 +59,7 @@ class Rod(MassInSection, DenseBlock):
         return self.length
 
     def stiffness(self) -> Float64:
+        """(e, 12, 12) of an axial and a torsional spring."""
         axial = self.material.e * self.section.a / self.length
         torsional = self.material.g * self.section.j / self.length
         return line_springs(self.axis, axial, torsional)
@@ -77,6 +78,7 @@ class Rod(MassInSection, DenseBlock):
         return matrix
 
     def structural_damping(self) -> Float64 | None:
+        """(e,) GE of the material."""
         return some(self.material.ge)
 
     def mass(self, *, coupled: bool) -> Float64:
@@ -105,6 +107,7 @@ class Rod(MassInSection, DenseBlock):
         return stretched(self.axis, self.material.alpha * self.length)
 
     def forces(self) -> Recovery:
+        """Axial force and torque."""
         return Recovery(
             table=self.card,
             columns=ROD,
@@ -115,6 +118,7 @@ class Rod(MassInSection, DenseBlock):
         )
 
     def stresses(self) -> Recovery:
+        """Axial stress, and shear stress at the lever C."""
         return Recovery(
             table=self.card,
             columns=ROD,

@@ -51,6 +51,7 @@ class Bushings(DenseBlock):
     coefficients: Float64
 
     def stiffness(self) -> Float64:
+        """(e, 12, 12) of six springs along the element axes."""
         return self._along_axes(self.k)
 
     def structural_damping(self) -> Float64 | None:
@@ -58,9 +59,11 @@ class Bushings(DenseBlock):
         return self._along_axes(self.ge * self.k) if np.any(self.ge) else None
 
     def damping(self) -> Float64 | None:
+        """(e, 12, 12) of six dashpots along the element axes."""
         return self._along_axes(self.b) if np.any(self.b) else None
 
     def mass(self, *, coupled: bool) -> Float64 | None:
+        """(e, 12, 12) half of M at each end, translations."""
         if not np.any(self.m):
             return None
         matrix = np.zeros((len(self.m), 12, 12))

@@ -40,14 +40,17 @@ class AxialBushings(DenseBlock):
     coefficients: Float64
 
     def stiffness(self) -> Float64:
+        """(e, 12, 12) of a spring along the line."""
         return congruence(self.motion, self.k[:, None, None])
 
     def damping(self) -> Float64 | None:
+        """(e, 12, 12) of a dashpot along the line."""
         if not np.any(self.c):
             return None
         return congruence(self.motion, self.c[:, None, None])
 
     def mass(self, *, coupled: bool) -> Float64 | None:
+        """(e, 12, 12) half of M at each end, translations."""
         if not np.any(self.m):
             return None
         translations = np.tile(np.repeat([1.0, 0.0], 3), 2)

@@ -22,6 +22,7 @@ class PointMasses(DenseBlock):
     matrix: Float64
 
     def mass(self, *, coupled: bool) -> Float64:
+        """(e, 6, 6) about the grid, its offset included."""
         return self.matrix
 
 

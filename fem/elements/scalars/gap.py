@@ -37,6 +37,7 @@ class Gaps(DenseBlock):
     k: Float64
 
     def stiffness(self) -> Float64:
+        """(e, 12, 12) of a gap as it is at the start."""
         return congruence(self.motion, self.k[:, :, None] * np.eye(3))
 
     def forces(self) -> Recovery:

@@ -28,6 +28,7 @@ class General(DenseBlock):
     matrix: Float64
 
     def stiffness(self) -> Float64:
+        """(e, n, n) as the card gives it."""
         return self.matrix
 
 

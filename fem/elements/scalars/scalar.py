@@ -38,15 +38,19 @@ class Springs(DenseBlock):
     s: Float64
 
     def stiffness(self) -> Float64:
+        """(e, 2, 2)."""
         return self.k[:, None, None] * _PAIR
 
     def structural_damping(self) -> Float64 | None:
+        """(e,) GE."""
         return some(self.ge)
 
     def forces(self) -> Recovery:
+        """K times the elongation."""
         return self._recovery(SPRING[0], self.k)
 
     def stresses(self) -> Recovery:
+        """S times the force."""
         return self._recovery(SPRING[1], self.k * self.s)
 
     def strains(self) -> Recovery:
@@ -72,6 +76,7 @@ class Dashpots(DenseBlock):
     b: Float64
 
     def damping(self) -> Float64:
+        """(e, 2, 2)."""
         return self.b[:, None, None] * _PAIR
 
     def forces(self) -> Recovery:
@@ -93,6 +98,7 @@ class ScalarMasses(DenseBlock):
     m: Float64
 
     def mass(self, *, coupled: bool) -> Float64:
+        """(e, 2, 2)."""
         return self.m[:, None, None] * _PAIR
 
 

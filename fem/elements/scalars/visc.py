@@ -31,6 +31,7 @@ class Viscous(DenseBlock):
     torsional: Float64
 
     def damping(self) -> Float64:
+        """(e, 12, 12) of an axial and a torsional dashpot."""
         return line_springs(self.axis, self.axial, self.torsional)
 
     def forces(self) -> Recovery:

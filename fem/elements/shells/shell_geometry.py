@@ -66,7 +66,7 @@ class Facet:
 
 
 def unit(vectors: Float64) -> Float64:
-    """Unit vectors; zero vectors stay zero, for the quality check to name."""
+    """(..., 3) of length one; zero vectors stay zero, for the quality check to name."""
     length = np.linalg.norm(vectors, axis=-1, keepdims=True)
     return vectors / np.where(length == 0.0, 1.0, length)
 
