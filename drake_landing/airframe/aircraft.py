@@ -15,6 +15,7 @@ from fem.arrays import Float64
 from fem.deck.deck import Deck
 from fem.deck.deck_files import deck_files
 from fem.deck.reader import read_deck
+from fem.errors import InputError
 from fem.model.structure import Structure
 
 if TYPE_CHECKING:
@@ -63,6 +64,12 @@ class Aircraft:
             InputError: everything that is wrong with its deck.
         """
         structure = Structure.from_deck(self.read(self.deck))
+        if structure.dynamic_input is not None:
+            raise InputError(
+                f"{self.deck}: K2PP, B2PP, M2PP and TFL belong to dynamic solutions of "
+                "the deck's own, a landing has the matrices of the structure; expected "
+                "K2GG, B2GG, M2GG, or CASE in airframe.ignore to fly without them"
+            )
         if self.check is not None:
             self.check(structure)
         return structure

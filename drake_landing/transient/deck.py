@@ -117,7 +117,6 @@ def write_transient_deck(path: Path, lines: Iterable[str]) -> None:
 def model_selections(subcase: Subcase) -> list[str]:
     """Case control lines of what belongs to the model rather than to its loading."""
     names = ("spc", "mpc", "nsm", "massset", "suport1", "k2gg", "m2gg", "b2gg")
-    names += ("k2pp", "m2pp", "b2pp")
     return [
         f"{name.upper()} = {getattr(subcase, name)}"
         for name in names

@@ -5,9 +5,10 @@ A = K - ω² M; with it, of the real symmetric one of twice the size that belong
 real and imaginary parts,
 
     [A  -C] [ x]   [ Re P]
-    [-C -A] [ y] = [-Im P],    C = ω B + G K + K4,  u = x + i y.
+    [-C -A] [ y] = [-Im P],    C = ω B + G K + K4,  u = x + i y,
 
-Or in modal coordinates, where the matrices are small and dense.
+with the second row negated where the matrices are not symmetric anyway. Or in modal
+coordinates, where the matrices are small and dense.
 """
 
 from collections.abc import Callable
@@ -39,6 +40,7 @@ class HarmonicMatrices:
         stiffness, mass: K and M.
         viscous: B; None: none.
         structural: G K + K4; None: none.
+        symmetric: whether they are (transfer functions are not).
         varying: the matrices at a frequency in Hz, where they depend on it; the others
             are nominal then, those that modes belong to.
     """
@@ -47,6 +49,7 @@ class HarmonicMatrices:
     mass: sp.csr_matrix
     viscous: sp.csr_matrix | None = None
     structural: sp.csr_matrix | None = None
+    symmetric: bool = True
     varying: "Callable[[float], HarmonicMatrices] | None" = None
 
     def at(self, hertz: float) -> "HarmonicMatrices":
@@ -90,15 +93,18 @@ def direct_response(
         own = matrices.at(float(hertz))
         dynamic = sp.csr_matrix(own.stiffness - omega**2 * own.mass)
         loss, p = own.loss(omega), load(k)
+        sign = -1.0 if own.symmetric else 1.0
         whole = dynamic
         if loss is not None:
-            whole = sp.csr_matrix(sp.bmat([[dynamic, -loss], [-loss, -dynamic]]))
-        with factorize(whole, kind="symmetric", solver=solver) as factor:
+            rows = [[dynamic, -loss], [sign * loss, sign * dynamic]]
+            whole = sp.csr_matrix(sp.bmat(rows))
+        kind = "symmetric" if own.symmetric else "general"
+        with factorize(whole, kind=kind, solver=solver) as factor:
             if loss is None:
                 found[k] = _refined(factor, whole, p.real)
                 found[k] += 1j * _refined(factor, whole, p.imag)
             else:
-                x = _refined(factor, whole, np.concatenate([p.real, -p.imag]))
+                x = _refined(factor, whole, np.concatenate([p.real, sign * p.imag]))
                 found[k] = x[:n] + 1j * x[n:]
         progress(k + 1, len(frequency_hz))
     return found

@@ -6,7 +6,7 @@ rest is free (f-set). Forces of constraint follow from the residual of the g-set
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -41,6 +41,7 @@ class Elimination:
         s: (s,) fixed or enforced rows, ascending.
         enforced: (s,) their displacements, displacement frames.
         dependence: (m, g) csr, u_m = dependence u_g, columns without m.
+        extra: (e,) rows of extra points, which are in no other set.
     """
 
     size: int
@@ -48,6 +49,7 @@ class Elimination:
     s: Int64
     enforced: Float64
     dependence: sp.csr_matrix
+    extra: Int64 = field(default_factory=lambda: np.zeros(0, np.int64))
 
     @cached_property
     def f(self) -> Int64:
@@ -55,6 +57,7 @@ class Elimination:
         free = np.ones(self.size, bool)
         free[self.m] = False
         free[self.s] = False
+        free[self.extra] = False
         return np.flatnonzero(free)
 
     @cached_property
@@ -213,16 +216,24 @@ def eliminate_equations(
         s=fixed.dof,
         enforced=fixed.value,
         dependence=_substitute(points, m, given, sources),
+        extra=points.extra_dof,
     )
 
 
 def _refuse_conflicts(
     points: Points, equations: Equations, fixed: SinglePointConstraints
 ) -> None:
+    named = {*equations.dependent, *equations.column, *fixed.dof}
+    problems = [
+        f"{points.label(dof)}: an extra point cannot be constrained; TF relates it to "
+        "others"
+        for dof in points.extra_dof.tolist()
+        if dof in named
+    ]
     users: dict[int, list[str]] = {}
     for dof, source in zip(equations.dependent.tolist(), equations.source):
         users.setdefault(dof, []).append(source)
-    problems = [
+    problems += [
         f"{points.label(dof)} is dependent in {' and in '.join(sources)}; a freedom "
         "can depend once only"
         for dof, sources in users.items()

@@ -17,7 +17,12 @@ from fem.geometry.coordinates import resolve
 Tables = Mapping[str, pd.DataFrame]
 
 _MOST = 20  # problems of one kind that are listed
-_WORDS = {"GRID": "grid", "POINT": "point", "CORD": "coordinate system"}
+_WORDS = {
+    "GRID": "grid",
+    "POINT": "point",
+    "FREEDOM": "point",
+    "CORD": "coordinate system",
+}
 
 
 def check(deck: Deck, *, partial: bool = False) -> list[str]:
@@ -100,9 +105,14 @@ def _missing(
         bad &= values > 0
     found = list(dict.fromkeys(zip(rows[bad].tolist(), values[bad].tolist())))
     key = table.columns[2]  # the first after file and line
+    extra = {*tables["EPOINT"]["id"]} if "EPOINT" in tables and what == "point" else ()
     problems = [
         f"{table['file'][row]}:{table['line'][row]}: {name} {table[key][row]}: "
-        f"{what} {number} is not defined"
+        + (
+            f"{number} is an extra point (EPOINT), expected a grid or scalar point"
+            if number in extra
+            else f"{what} {number} is not defined"
+        )
         for row, number in found[:_MOST]
     ]
     if len(found) > _MOST:

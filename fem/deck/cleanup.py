@@ -83,7 +83,7 @@ def _drop_repetitions(tables: Tables, name: str, notices: list[str]) -> None:
 
 def _add_scalar_points(tables: Tables, notices: list[str]) -> None:
     """Scalar points that only their use on scalar elements defines (component 0)."""
-    known = ids(tables, ("GRID", "SPOINT"), "id")
+    known = ids(tables, ("GRID", "SPOINT", "EPOINT"), "id")
     found: dict[int, tuple[str, int]] = {}
     for name in SCALAR_ELEMENTS:
         table = tables[name]

@@ -15,10 +15,8 @@ import numpy.typing as npt
 
 from fem.arrays import Int64
 from fem.deck.cards.dmig import read_dmig
-from fem.deck.text.fields import Fields
 from fem.deck.text.lexer import RawCard, read_cards
 from fem.deck.text.source import read_source
-from fem.deck.text.values import Malformed
 from fem.errors import InputError
 from fem.matrix_files.checks import check_size, checked
 from fem.matrix_files.named import RECTANGULAR, SYMMETRIC, NamedMatrix
@@ -26,7 +24,6 @@ from fem.matrix_files.named import RECTANGULAR, SYMMETRIC, NamedMatrix
 _RECTANGULAR_HEADER = 9
 _FORMS = (1, 2, SYMMETRIC, _RECTANGULAR_HEADER)
 _REAL = (1, 2)
-_COMPLEX = ("3", "4")
 _KEY = 10  # point · 10 + component: sorts as freedoms do
 _LARGEST_COMPONENT = 6
 _LARGEST_ID = 10**12  # beyond it no integer of a deck is one
@@ -51,38 +48,13 @@ def read_punch(path: Path) -> list[NamedMatrix]:
 
 
 def _rows(path: Path, cards: list[RawCard]) -> list[dict[str, Any]]:
-    """A row for each matrix, as `read_dmig` makes them, complex ones too."""
-    heads = [card for card in cards if card.field(2) == "0"]
-    is_complex = {c.field(1): c for c in heads if c.field(4) in _COMPLEX}
     problems: list[str] = []
-    rows = read_dmig([c for c in cards if c.field(1) not in is_complex], problems)
-    for name, head in is_complex.items():
-        columns = [c for c in cards if c.field(1) == name and c.field(2) != "0"]
-        try:
-            rows.append(_complex(Fields(head), columns))
-        except Malformed as error:
-            problems.append(f"{head.place}: DMIG {name}: {error}")
+    rows = read_dmig(cards, problems)
     if problems:
         raise InputError(
             p if p.startswith(f"{path}:") else f"{path}: {p}" for p in problems
         )
     return rows
-
-
-def _complex(head: Fields, columns: list[RawCard]) -> dict[str, Any]:
-    form, polar = head.integer(3, "IFO"), head.integer(6, "POLAR", 0)
-    if form not in _FORMS:
-        raise Malformed(f"field IFO: found {form}, expected 1, 2, 6 or 9")
-    terms = []
-    for card in columns:
-        fields = Fields(card)
-        column = fields.integer(2, "GJ"), fields.integer(3, "CJ", 0)
-        for k in fields.groups(5, 4):
-            at = fields.integer(k, "G"), fields.integer(k + 1, "C", 0)
-            a, b = fields.real(k + 2, "A"), fields.real(k + 3, "B", 0.0)
-            value = a * np.exp(1j * np.radians(b)) if polar else complex(a, b)
-            terms.append((*at, *column, value))
-    return _row(head.text(1), form, terms, complex)
 
 
 def _punched(lines: list[str]) -> list[dict[str, Any]] | None:
@@ -116,18 +88,18 @@ def _punched(lines: list[str]) -> list[dict[str, Any]] | None:
     for found in terms.values():
         if any(abs(n) > _LARGEST_ID for term in found for n in term[:4]):
             return None
-    return [_row(name, forms[name], found, float) for name, found in terms.items()]
+    return [_row(name, forms[name], found) for name, found in terms.items()]
 
 
 def _row(
-    name: str, form: int, terms: list[tuple[int, int, int, int, Any]], kind: type
+    name: str, form: int, terms: list[tuple[int, int, int, int, float]]
 ) -> dict[str, Any]:
     if form == SYMMETRIC:
         terms = terms + [(c, d, a, b, x) for a, b, c, d, x in terms if (a, b) != (c, d)]
     parts = list(zip(*terms)) or [()] * 5
     keys = ("rowids", "rowcs", "colids", "colcs")
     row: dict[str, Any] = {k: np.array(p, np.int64) for k, p in zip(keys, parts)}
-    return {"name": name, "form": form, **row, "values": np.array(parts[4], kind)}
+    return {"name": name, "form": form, **row, "values": np.array(parts[4], float)}
 
 
 def _matrix(row: dict[str, Any]) -> NamedMatrix:

@@ -29,7 +29,9 @@ class Points:
         xyz: (g, 3) positions in the basic frame.
         rotation: (g, 3, 3) R_BD, columns are the displacement axes in the basic frame.
         ps: (g, 6) True where GRID PS constrains the freedom for good.
-        spoint_id: (s,) ascending.
+        spoint_id: (s,) ascending; extra points among them.
+        extra_id: (e,) ascending, extra points (EPOINT): they take part in dynamic
+            solutions alone, with what is given for them directly.
         frames: coordinate systems of the deck.
     """
 
@@ -38,12 +40,18 @@ class Points:
     rotation: Float64
     ps: Bool
     spoint_id: Int64
+    extra_id: Int64 = field(default_factory=lambda: np.zeros(0, np.int64))
     frames: Frames = field(default_factory=lambda: Frames({}), repr=False)
 
     @property
     def size(self) -> int:
         """Number of rows of the g-set."""
         return 6 * len(self.grid_id) + len(self.spoint_id)
+
+    @property
+    def extra_dof(self) -> Int64:
+        """(e,) rows of the extra points."""
+        return 6 * len(self.grid_id) + np.searchsorted(self.spoint_id, self.extra_id)
 
     def rows(self, ids: npt.ArrayLike) -> Int64:
         """Positions of grids in `grid_id`, of the shape of `ids`.
@@ -95,11 +103,12 @@ class Points:
         return dof
 
     def label(self, dof: int) -> str:
-        """Name of a row of the g-set: "grid 12 T3" or "scalar point 91"."""
+        """Name of a row: "grid 12 T3", "scalar point 91" or "extra point 92"."""
         grid, component = divmod(int(dof), 6)
         if grid < len(self.grid_id):
             return f"grid {self.grid_id[grid]} {COMPONENTS[component]}"
-        return f"scalar point {self.spoint_id[int(dof) - 6 * len(self.grid_id)]}"
+        point = self.spoint_id[int(dof) - 6 * len(self.grid_id)]
+        return f"{'extra' if point in self.extra_id else 'scalar'} point {point}"
 
     def basic_rotation(self) -> sp.csr_matrix:
         """(g-set, g-set) R with u_basic = R u_g, block-diagonal, 1 at scalar points."""

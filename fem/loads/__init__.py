@@ -8,6 +8,7 @@ from fem.loads.dynamic import (
     time_steps,
 )
 from fem.loads.enforced_motion import EnforcedMotion, dynamic_motions
+from fem.loads.nonlinear import nonlinear_load
 from fem.loads.static import (
     enforced_displacements,
     static_element_loads,
@@ -21,6 +22,7 @@ __all__ = [
     "dynamic_motions",
     "enforced_displacements",
     "initial_conditions",
+    "nonlinear_load",
     "static_element_loads",
     "static_load",
     "table_notices",

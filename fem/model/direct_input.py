@@ -16,7 +16,7 @@ from fem.geometry.points import Points
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
-SYMMETRIC, RECTANGULAR = 6, 9
+SQUARE, SYMMETRIC, RECTANGULAR = 1, 6, 9
 LARGEST = 1e100  # of an entry: products of three stay within double precision
 
 
@@ -58,7 +58,15 @@ def read_direct(
         if name:
             scale = deck.number(factor)
             terms += [scale * f * dmig(deck, points, t) for f, t in combination(name)]
-        return sp.csr_matrix(sum(terms)) if terms else None
+        if not terms:
+            return None
+        total = sp.csr_matrix(sum(terms))
+        if len(points.extra_dof) and total[points.extra_dof].nnz:
+            raise InputError(
+                f"{deck.path}: {name} joins extra points (EPOINT), which have no place "
+                f"in the {kind} of the structure; expected it with K2PP, M2PP or B2PP"
+            )
+        return total
 
     mass = external("mass")
     return DirectMatrices(
@@ -87,27 +95,37 @@ def combination(text: str) -> list[tuple[float, str]]:
     return terms
 
 
-def dmig(deck: "Deck", points: Points, name: str) -> sp.csr_matrix:
-    """(g, g) matrix of a DMIG.
+def dmig(
+    deck: "Deck", points: Points, name: str, *, square: bool = False
+) -> sp.csr_matrix:
+    """(g, g) matrix of a DMIG, real and symmetric.
+
+    Args:
+        deck, points: the model.
+        name: of the matrix.
+        square: it need not be symmetric, and may be complex.
 
     Raises:
         InputError: see `read_direct`.
     """
     card = _card(deck, name)
     place = where("DMIG", card)
-    if int(card["form"]) != SYMMETRIC:
-        raise InputError(f"{place}: form {card['form']}, expected 6 (symmetric)")
+    form, values = int(card["form"]), np.asarray(card["values"])
+    if form not in ((SQUARE, SYMMETRIC) if square else (SYMMETRIC,)):
+        expected = "1 (square) or 6 (symmetric)" if square else "6 (symmetric)"
+        raise InputError(f"{place}: form {form}, expected {expected}")
+    if np.iscomplexobj(values) and not square:
+        raise InputError(f"{place}: it is complex (TIN), expected a real matrix")
     try:
         row = points.dof(card["rowids"], card["rowcs"])
         column = points.dof(card["colids"], card["colcs"])
     except InputError as error:
         raise InputError(f"{place}: {p}" for p in error.problems) from None
-    values = np.asarray(card["values"], float)
     matrix = sp.csr_matrix((values, (row, column)), shape=(points.size, points.size))
     size = abs(matrix).max() if matrix.nnz else 0.0
     if size > LARGEST:
         raise InputError(f"{place}: found {size:g}, expected no more than {LARGEST:g}")
-    if abs(matrix - matrix.T).max() > 1e-12 * size:
+    if form == SYMMETRIC and abs(matrix - matrix.T).max() > 1e-12 * size:
         raise InputError(f"{place}: the two triangles differ, expected symmetry")
     return matrix
 
@@ -131,6 +149,8 @@ def direct_load(deck: "Deck", points: Points, text: str, number: int) -> Float64
             raise InputError(
                 f"{place}: form {card['form']}, expected 9 (rectangular) for P2G"
             )
+        if np.iscomplexobj(card["values"]):
+            raise InputError(f"{place}: it is complex (TIN), expected a real matrix")
         columns = np.asarray(card["colids"])
         wanted = number if columns.max(initial=1) > 1 else 1
         if wanted not in columns and len(columns):

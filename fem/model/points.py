@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from fem.arrays import Int64
 from fem.errors import InputError
 from fem.geometry.coordinates import resolve
 from fem.geometry.points import Points
@@ -48,9 +49,14 @@ def read_points(deck: Deck) -> Points:
         ps=np.stack([np.char.find(digits, c) >= 0 for c in "123456"], axis=-1)
         if len(grid)
         else np.zeros((0, 6), bool),
-        spoint_id=np.unique(deck.cards["SPOINT"]["id"].to_numpy(np.int64)),
+        spoint_id=np.union1d(_ids(deck, "SPOINT"), _ids(deck, "EPOINT")),
+        extra_id=_ids(deck, "EPOINT"),
         frames=frames,
     )
+
+
+def _ids(deck: Deck, card: str) -> Int64:
+    return np.unique(deck.cards[card]["id"].to_numpy(np.int64))
 
 
 def axis_notices(deck: Deck, points: Points) -> list[str]:

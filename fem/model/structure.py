@@ -9,6 +9,7 @@ works on matrices works on a structure, on parts of it, or on somebody else's ma
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 import numpy as np
@@ -27,6 +28,7 @@ from fem.constraints.sets import freedoms_of
 from fem.errors import InputError
 from fem.geometry.points import Points
 from fem.model.assembly import Matrices
+from fem.model.dynamic_input import DynamicInput, read_dynamic_input
 from fem.model.free_set import ConstraintChoice, FreeSet
 from fem.model.mechanisms import Mechanism, describe, find_mechanisms
 from fem.model.model import Model, ModelChoice
@@ -129,6 +131,11 @@ class Structure:
     def matrices(self) -> Matrices:
         """K, M, B and K4 of the g-set."""
         return self.model.matrices
+
+    @cached_property
+    def dynamic_input(self) -> DynamicInput | None:
+        """What K2PP, M2PP, B2PP and TFL of the subcase add; None: nothing."""
+        return read_dynamic_input(self.deck, self.points, self.subcase)
 
     @property
     def loaded_mass(self) -> sp.csr_matrix:

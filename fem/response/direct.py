@@ -15,7 +15,7 @@ import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct
-from fem.algebra.linear_solver import Factorization, SolverName
+from fem.algebra.linear_solver import Factorization, Kind, SolverName
 from fem.arrays import Float64
 from fem.response.generalized_alpha import GeneralizedAlpha
 from fem.response.nastran_scheme import NastranScheme
@@ -69,6 +69,7 @@ def direct_transient(
     v0: Float64 | None = None,
     observers: Sequence[Observer] = (),
     scheme: NastranScheme | GeneralizedAlpha | None = None,
+    kind: Kind = "spd",
     solver: SolverName | None = None,
     threads: int | None = None,
     mass_product: CondensedProduct | None = None,
@@ -78,14 +79,15 @@ def direct_transient(
     """Integrate the equation of motion of the free set.
 
     Args:
-        stiffness, mass: (n, n) K and M, symmetric, sparse. M may be singular and K too
-            (free-flying structures), not both for one motion.
+        stiffness, mass: (n, n) K and M, sparse; symmetric, but for kind "general". M
+            may be singular and K too (free-flying structures), not both for one motion.
         damping: B as a matrix, or with its proportional part apart (faster).
         steps: rows (count, step in s, output stride) as on TSTEP.
         load: patterns and functions of time; None: no load.
         u0, v0: (n,) or (c, n) initial displacements and velocities; None: zero.
         observers: receive the response, e.g. `Observation`.
         scheme: Nastran's by default.
+        kind: of the matrices, as in `fem.algebra.linear_solver.factorize`.
         solver, threads: as in `fem.algebra.linear_solver.factorize`.
         mass_product: products with `mass` that cost less, see `Structure`.
         progress: called after each step with (done, all).
@@ -107,6 +109,7 @@ def direct_transient(
         solver=solver,
         threads=threads,
         mass_product=mass_product,
+        kind=kind,
     )
     groups = step_groups(steps)
     time = output_times(groups)

@@ -27,6 +27,7 @@ NASTRAN-95 (module TRD).
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -86,9 +87,24 @@ class _Step:
         )
 
 
+class StateLoad(Protocol):
+    """A load that depends on the motion."""
+
+    def __call__(self, u: Float64, before: Float64, h: float) -> Float64:
+        """(c, n) loads from u(n), u(n-1) (c, n) and the step, s."""
+        ...
+
+
 @dataclass(frozen=True)
 class NastranScheme:
-    """The scheme of SOL 109: unconditionally stable, second order, without damping."""
+    """The scheme of SOL 109: unconditionally stable, second order, without damping.
+
+    Attributes:
+        state_load: N(u(n), u(n-1)), a load of the step to u(n+1) that is not averaged;
+            with it there is no stability that would not depend on the step.
+    """
+
+    state_load: StateLoad | None = None
 
     def matrix_factors(
         self, system: TransientSystem, h: float
@@ -126,7 +142,8 @@ class NastranScheme:
                 announce(factor)
                 right, solved = np.empty_like(start.u), np.empty_like(start.u)
                 step = _Step(system, factor, group.step, right, solved)
-                past = _run_group(step, group, start, factors, emit, tick)
+                loads = _Loads(factors, start, self.state_load)
+                past = _run_group(step, group, start, loads, emit, tick)
 
     def _start(
         self,
@@ -174,6 +191,23 @@ class _Start:
         return vector if vector is not None and vector.any() else None
 
 
+@dataclass(frozen=True)
+class _Loads:
+    """Mean load factors (steps, c, k) of a group, and what acts beside them."""
+
+    factors: Float64
+    start: _Start
+    state_load: StateLoad | None
+
+    def beside(self, n: int, u: Float64, before: Float64, h: float) -> Float64 | None:
+        """(c, n) loads of a step beyond patterns times factors."""
+        extra = self.start.extra(n)
+        if self.state_load is None:
+            return extra
+        found = self.state_load(u, before, h)
+        return found if extra is None else found + extra
+
+
 def _mean_factors(
     load: TransientLoad | None, group: StepGroup, cases: int, uses_first: bool
 ) -> Float64:
@@ -194,7 +228,7 @@ def _run_group(
     step: _Step,
     group: StepGroup,
     start: _Start,
-    factors: Float64,
+    loads: "_Loads",
     emit: Callable[[Chunk], None],
     tick: Callable[[], None],
 ) -> Float64:
@@ -203,7 +237,9 @@ def _run_group(
     # The last group takes one more step, for the last central difference.
     for n in range(group.count + int(group.last)):
         before, u, out = windows.next_rows()
-        step.advance(u, before, factors[n], out, start.extra(n))
+        step.advance(
+            u, before, loads.factors[n], out, loads.beside(n, u, before, step.h)
+        )
         tick()
     windows.hand_out()
     return windows.last.copy()

@@ -9,7 +9,7 @@ import scipy.sparse as sp
 
 from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct
-from fem.algebra.linear_solver import Factorization, SolverName, factorize
+from fem.algebra.linear_solver import Factorization, Kind, SolverName, factorize
 from fem.algebra.sparse_products import SplitMatrix, shape_of
 from fem.arrays import Float64
 
@@ -84,6 +84,7 @@ class TransientSystem:
         other_product: B' as diagonal and rest.
         pattern_rows: (r,) rows that the load patterns touch.
         pattern: (r, k) those rows of the patterns.
+        kind: of the matrices: "spd", or "general" where they are not symmetric.
     """
 
     stiffness: sp.csr_matrix
@@ -95,6 +96,7 @@ class TransientSystem:
     pattern: sp.csr_matrix
     solver: SolverName | None
     threads: int | None
+    kind: Kind = "spd"
 
     @classmethod
     def of(
@@ -107,6 +109,7 @@ class TransientSystem:
         solver: SolverName | None,
         threads: int | None,
         mass_product: CondensedProduct | None = None,
+        kind: Kind = "spd",
     ) -> "TransientSystem":
         """Prepare the products."""
         k, m = sp.csr_matrix(stiffness, dtype=float), sp.csr_matrix(mass, dtype=float)
@@ -128,6 +131,7 @@ class TransientSystem:
             pattern=pattern[rows],
             solver=solver,
             threads=threads,
+            kind=kind,
         )
 
     @property
@@ -148,6 +152,7 @@ class TransientSystem:
         """Factor of k K + m M + other B', for the steps of so many load cases."""
         return factorize(
             self.combine(k, m, other),
+            kind=self.kind,
             solver=self.solver,
             threads=self.threads,
             columns=cases,

@@ -1,4 +1,8 @@
-"""Matrices that a solution works on: the free set, or its reduction (ASET, QSET)."""
+"""Matrices that a solution works on: the free set, or its reduction (ASET, QSET).
+
+Direct dynamics add extra points and what K2PP, TFL and their like select (the d-set);
+modal ones with such input are solved as a system of modes and extra points (the h-set).
+"""
 
 from dataclasses import dataclass
 
@@ -7,10 +11,14 @@ import scipy.sparse as sp
 
 from fem.algebra.components import Component, condense
 from fem.algebra.damping import Damping
-from fem.algebra.linear_solver import SolverName
+from fem.algebra.linear_solver import Kind, SolverName
+from fem.algebra.modes import Modes
 from fem.algebra.reduction import reduce_craig_bampton
 from fem.arrays import Float64, Int64
+from fem.errors import InputError
+from fem.model.dynamic_input import DynamicInput
 from fem.model.structure import Structure
+from fem.response.modal import modal_damping
 from fem.solution.components import components_of
 
 
@@ -25,6 +33,7 @@ class AnalysisModel:
         rigid_body: (n, r) motions that may be free of energy.
         reduced: whether this is a reduction of the free set.
         rows: (k,) rows of the g-set that the first k freedoms are.
+        direct: what dynamic solutions add, on the same freedoms; None: nothing.
     """
 
     stiffness: sp.csr_matrix
@@ -34,10 +43,82 @@ class AnalysisModel:
     rigid_body: Float64 | None
     reduced: bool
     rows: Int64
+    direct: DynamicInput | None = None
+
+    @property
+    def system(self) -> tuple[sp.csr_matrix, sp.csr_matrix, Damping, Kind]:
+        """K, M and B with what is added, and of which kind they are."""
+        k, m, b, more = self.stiffness, self.mass, self.damping, self.direct
+        if more is None:
+            return k, m, b, "spd"
+        whole = Damping(other=sp.csr_matrix(b.matrix(k, m) + more.damping))
+        k, m = sp.csr_matrix(k + more.stiffness), sp.csr_matrix(m + more.mass)
+        return k, m, whole, "general"
 
     def load(self, p_g: sp.csr_matrix) -> sp.csr_matrix:
         """(n, k) loads from loads (g, k) of the g-set."""
         return sp.csr_matrix(self.expand.T @ p_g)
+
+
+def with_dynamic_input(structure: Structure, reduced: AnalysisModel) -> AnalysisModel:
+    """Extra points before the freedoms, with what the subcase adds; or nothing new.
+
+    Raises:
+        InputError: extra points that nothing is said of.
+    """
+    given, extra = structure.dynamic_input, structure.points.extra_dof
+    if not len(extra) and given is None:
+        return reduced
+    used = np.zeros(structure.points.size, bool)
+    if given is not None:
+        for matrix in (given.stiffness, given.damping, given.mass, given.structural):
+            used |= np.diff(matrix.indptr) > 0
+    if (idle := extra[~used[extra]]).size:
+        raise InputError(
+            f"{structure.deck.path}: subcase {structure.subcase.id}: "
+            f"{structure.points.label(int(dof))} has no equation; expected a row of TF "
+            "(TFL) or DMIG (K2PP, B2PP, M2PP)"
+            for dof in idle[:20]
+        )
+    if given is None:
+        return reduced
+    e = len(extra)
+    unit = sp.csr_matrix(
+        (np.ones(e), (extra, np.arange(e))), shape=(structure.points.size, e)
+    )
+    expand = sp.csr_matrix(sp.hstack([unit, reduced.expand]))
+
+    def padded(matrix: sp.csr_matrix) -> sp.csr_matrix:
+        return sp.csr_matrix(sp.block_diag([sp.csr_matrix((e, e)), matrix]))
+
+    damping = reduced.damping.matrix(reduced.stiffness, reduced.mass)
+    return AnalysisModel(
+        stiffness=padded(reduced.stiffness),
+        mass=padded(reduced.mass),
+        damping=Damping(other=padded(damping)),
+        expand=expand,
+        rigid_body=None,
+        reduced=reduced.reduced,
+        rows=np.concatenate([extra, reduced.rows]),
+        direct=given.on(expand),
+    )
+
+
+def in_modes(
+    reduced: AnalysisModel, modes: Modes, ratio: Float64 | float = 0.0
+) -> AnalysisModel:
+    """The same in coordinates of mass-normalised modes, damping ratios added to B."""
+    own = 2.0 * np.broadcast_to(ratio, modes.count) * np.sqrt(np.abs(modes.eigenvalue))
+    damping = modal_damping(modes, reduced.damping) + np.diag(own)
+    return AnalysisModel(
+        stiffness=sp.csr_matrix(sp.diags(modes.eigenvalue)),
+        mass=sp.csr_matrix(sp.identity(modes.count)),
+        damping=Damping(other=sp.csr_matrix(damping)),
+        expand=sp.csr_matrix(reduced.expand @ modes.shape),
+        rigid_body=None,
+        reduced=True,
+        rows=np.zeros(0, np.int64),
+    )
 
 
 def analysis_model(

@@ -88,6 +88,28 @@ def carried_shape(
     return sp.csr_matrix(shape + reduced.expand @ sp.csr_matrix(along))
 
 
+def unseen_motion(model: Structure, motion: sp.csr_matrix) -> str:
+    """That K2PP, TFL and their like do not see motions (g, m) of constrained freedoms.
+
+    Nastran takes the rows and columns of what SPC holds out of them, moved or not
+    (workshop 21 of its course NAS102: the nonlinear loads that it prints).
+    """
+    given = model.dynamic_input
+    if given is None:
+        return ""
+    columns = abs(given.stiffness) + abs(given.damping) + abs(given.mass)
+    seen = np.asarray(columns.sum(axis=0)).ravel() > 0.0
+    rows = [int(row) for row in np.unique(motion.nonzero()[0]) if seen[row]]
+    if not rows:
+        return ""
+    names = ", ".join(model.points.label(row) for row in rows[:6])
+    return (
+        f"subcase {model.subcase.id}: TFL, K2PP, B2PP or M2PP refer to {names}, which "
+        "SPC holds and SPCD moves: as in Nastran they see freedoms that SPC holds at "
+        "rest; a large mass or a stiff spring may move the freedom instead"
+    )
+
+
 def moved_shape(model: Structure, motion: sp.csr_matrix) -> sp.csr_matrix | None:
     """(g, m) the g-set from motions of constrained freedoms (g, m); None: none moves.
 

@@ -29,8 +29,13 @@ from fem.model.structure import Structure
 from fem.recovery.elements import element_tables
 from fem.recovery.harmonic import harmonic_table
 from fem.response.modal import residual_vectors
-from fem.solution.analysis_model import AnalysisModel, analysis_model
-from fem.solution.enforced_motion import BaseMotion, base_motion
+from fem.solution.analysis_model import (
+    AnalysisModel,
+    analysis_model,
+    in_modes,
+    with_dynamic_input,
+)
+from fem.solution.enforced_motion import BaseMotion, base_motion, unseen_motion
 from fem.solution.frequency_dependence import FrequencyDependence
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
@@ -67,6 +72,8 @@ def solve_frequencies(
         excitation = harmonic_excitation(
             model.deck, model.points, case, hertz, model.loaded_mass
         )
+        if notice := unseen_motion(model, excitation.motion):
+            options.console.say(f"warning: {notice}")
         relative = str(model.deck.param("ENFMOTN")).upper().startswith("REL")
         if relative and excitation.motion.nnz:
             options.console.say(
@@ -98,11 +105,18 @@ def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
     structural = own(given.structural_damping)
     if g:
         structural = _sum(structural, sp.csr_matrix(g * reduced.stiffness))
+    stiffness, mass, viscous = reduced.stiffness, reduced.mass, own(given.damping)
+    if (more := reduced.direct) is not None:
+        stiffness = sp.csr_matrix(stiffness + more.stiffness)
+        mass = sp.csr_matrix(mass + more.mass)
+        viscous = _sum(viscous, more.damping)
+        structural = _sum(structural, more.structural)
     nominal = HarmonicMatrices(
-        stiffness=reduced.stiffness,
-        mass=reduced.mass,
-        viscous=own(given.damping),
+        stiffness=stiffness,
+        mass=mass,
+        viscous=viscous,
         structural=structural,
+        symmetric=more is None,
     )
     if varying is None:
         return nominal
@@ -137,6 +151,7 @@ def _direct(
 
     def run(model: Structure) -> Complex128:
         reduced = analysis_model(model, solver=options.solver)
+        reduced = with_dynamic_input(model, reduced)
         base = base_motion(model, excitation)
         load = _load(model, reduced, hertz, excitation, base)
         u = direct_response(
@@ -222,19 +237,52 @@ def _modal(
             reduced.stiffness, reduced.mass, modes, pattern, solver=options.solver
         )
         options.console.say(f"{modes.count - count} residual vectors")
+    ratio = modal_ratios(model.deck, model.subcase, modes.frequency_hz)
+    hysteretic = int(model.deck.number("KDAMP")) < 0
+    coupled = with_dynamic_input(model, in_modes(reduced, modes))
+    if coupled.direct is not None:
+        matrices = _with_ratios(_matrices(model, coupled), modes, ratio, hysteretic)
+        load = _load(model, coupled, hertz, excitation, base)
+        try:
+            u = direct_response(
+                matrices, hertz, lambda k: load[:, k], solver=options.solver
+            )
+        except SingularMatrixError as error:
+            raise InputError(f"{model.deck.path}: {_RESONANCE} ({error})") from None
+        u_g = (coupled.expand @ u.T).T
+        return u_g if base is None else u_g + base.displacement
     try:
         amplitude = modal_response(
             modes,
             _matrices(model, reduced),
             hertz,
             modes.shape.T @ _load(model, reduced, hertz, excitation, base),
-            ratio=modal_ratios(model.deck, model.subcase, modes.frequency_hz),
-            hysteretic=int(model.deck.number("KDAMP")) < 0,
+            ratio=ratio,
+            hysteretic=hysteretic,
         )
     except np.linalg.LinAlgError:
         raise InputError(f"{model.deck.path}: {_RESONANCE}") from None
     u_g = amplitude @ (reduced.expand @ modes.shape).T
     return u_g if base is None else u_g + base.displacement
+
+
+def _with_ratios(
+    matrices: HarmonicMatrices, modes: Modes, ratio: Float64, hysteretic: bool
+) -> HarmonicMatrices:
+    """Damping ratios of modes, which stand behind extra points, added."""
+    if (varying := matrices.varying) is not None:
+        nominal = replace(matrices, varying=None)
+        return replace(
+            _with_ratios(nominal, modes, ratio, hysteretic),
+            varying=lambda f: _with_ratios(varying(f), modes, ratio, hysteretic),
+        )
+    square = modes.eigenvalue
+    own = 2.0 * ratio * (square if hysteretic else np.sqrt(np.abs(square)))
+    extra = len(matrices.mass.indptr) - 1 - modes.count
+    added = sp.csr_matrix(sp.diags(np.concatenate([np.zeros(extra), own])))
+    if hysteretic:
+        return replace(matrices, structural=_sum(matrices.structural, added))
+    return replace(matrices, viscous=_sum(matrices.viscous, added))
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from fem.response.observation import QUANTITIES, Chunk, Observer, Quantity
 from fem.response.system import TransientLoad
 from fem.response.time_grid import step_groups
 from fem.solution.analysis_model import AnalysisModel
-from fem.solution.enforced_motion import moved_shape
+from fem.solution.enforced_motion import moved_shape, unseen_motion
 from fem.solution.options import Options
 
 
@@ -175,8 +175,15 @@ def with_base(
     return base.loaded(load, model, reduced), base.expand(reduced)
 
 
-def say_what_is_absolute(model: Structure, options: Options) -> None:
-    """That PARAM,ENFMOTN,REL is not followed."""
+def say_of_motion(
+    model: Structure, motions: Sequence[Sequence[EnforcedMotion]], options: Options
+) -> None:
+    """That PARAM,ENFMOTN,REL is not followed, and what direct input does not see."""
+    patterns = [motion.pattern for own in motions for motion in own]
+    if not patterns:
+        return
+    if notice := unseen_motion(model, sp.csr_matrix(np.stack(patterns, axis=1))):
+        options.console.say(f"warning: {notice}")
     if str(model.deck.param("ENFMOTN")).upper().startswith("REL"):
         options.console.say(
             "warning: PARAM,ENFMOTN,REL asks for motions relative to the base; those "

@@ -43,6 +43,8 @@ _SOLVERS: dict[int, _Solver] = {
 _TRANSIENT = frozenset({109, 112})
 # Solutions of superelements as one model.
 _WITHOUT_REDUCTION = frozenset({101, 105})
+# Without what dynamic solutions add to the matrices.
+_WITHOUT_MOTION = frozenset({101, 103, 105})
 # What follows from the results of other subcases, and is not computed here.
 _NOT_RUN = frozenset({"RANDOM"})
 
@@ -163,13 +165,13 @@ def _by_solution(deck: Deck) -> list[tuple[int, list[Subcase]]]:
     for subcase in split_subcases(deck.case_control)[0]:
         if subcase.analysis.upper() in _NOT_RUN:
             continue  # said by `_say_what_is_not_run`
-        number = asked_by(subcase, deck.sol)
-        if number not in _SOLVERS:
-            raise InputError(_unsupported(deck.path, number, deck.case_control))
-        work.setdefault(number, []).append(subcase)
+        work.setdefault(asked_by(subcase, deck.sol), []).append(subcase)
+    others = [number for number in work if number not in _SOLVERS]
+    if others and len(others) == len(work):
+        raise InputError(_unsupported(deck.path, others[0], deck.case_control))
     if not work:
         raise InputError(f"{deck.path}: no subcases")
-    return list(work.items())
+    return [(number, cases) for number, cases in work.items() if number in _SOLVERS]
 
 
 def _refuse_what_is_not_carried_out(
@@ -214,6 +216,14 @@ def _say_what_is_not_run(deck: Deck, options: Options) -> None:
             f"notice: subcases {ids} are for superelements: their METHOD and sets are "
             "used, their results come with the subcases of the residual structure"
         )
+    for subcase in split_subcases(deck.case_control)[0]:
+        number = asked_by(subcase, deck.sol)
+        if number not in _SOLVERS and subcase.analysis.upper() not in _NOT_RUN:
+            asked = f"ANALYSIS = {subcase.analysis}" if subcase.analysis else "it"
+            options.console.say(
+                f"warning: subcase {subcase.id} is not run: {asked} asks for what "
+                f"SOL {number} does, which is not supported; the others are solved"
+            )
     for subcase in deck.case_control:
         if subcase.analysis.upper() in _NOT_RUN:
             options.console.say(
@@ -231,11 +241,29 @@ def _say_what_is_left_out(
         for quantity, selection in subcase.outputs.items()
         if selection != "NONE"
     }
+    _say_what_does_not_act(number, subcases, options)
     # Modes have no loads: nothing is missed.
     missing = sorted(asked - WRITTEN[number] - {"OLOAD"})
     if missing:
         options.console.say(
             f"notice: output not written in SOL {number}: {', '.join(missing)}"
+        )
+
+
+def _say_what_does_not_act(
+    number: int, subcases: list[Subcase], options: Options
+) -> None:
+    """Direct input of dynamic solutions, and nonlinear loads, in other solutions."""
+    dynamic = ("k2pp", "b2pp", "m2pp", "tfl") if number in _WITHOUT_MOTION else ()
+    following = () if number in _TRANSIENT else ("nonlinear",)
+    given = [
+        name.upper()
+        for name in (*dynamic, *following)
+        if any(getattr(case, name) for case in subcases)
+    ]
+    if given:
+        options.console.say(
+            f"notice: {', '.join(given)}: without effect in SOL {number}, as in Nastran"
         )
 
 

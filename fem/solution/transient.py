@@ -3,7 +3,7 @@
 Subcases that differ by loads and initial conditions only are integrated together.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 
@@ -11,6 +11,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fem.algebra.linear_solver import SingularMatrixError
+from fem.algebra.modes import Modes
 from fem.algebra.sparse_products import shape_of
 from fem.arrays import Float64
 from fem.deck.control.case_sets import Selection
@@ -28,6 +29,7 @@ from fem.loads import (
     dynamic_excitation,
     dynamic_motions,
     initial_conditions,
+    nonlinear_load,
     table_notices,
     time_steps,
 )
@@ -42,15 +44,20 @@ from fem.recovery.elements import (
 from fem.recovery.envelope import Envelope
 from fem.recovery.grid_forces import constrained_grids, grid_balance, grids_of
 from fem.recovery.table_response import TableResponse
-from fem.response.direct import TransientLoad, direct_transient
+from fem.response.direct import NastranScheme, TransientLoad, direct_transient
 from fem.response.modal import modal_transient, residual_vectors
 from fem.response.observation import Observer, Quantity
-from fem.solution.analysis_model import AnalysisModel, analysis_model
+from fem.solution.analysis_model import (
+    AnalysisModel,
+    analysis_model,
+    in_modes,
+    with_dynamic_input,
+)
 from fem.solution.enforced_motion import carried_shape
 from fem.solution.holding import solve_or_hold
 from fem.solution.modal_damping import modal_ratios
 from fem.solution.modes import mode_table, modes_of, retained_modes
-from fem.solution.moving_base import moving_base, say_what_is_absolute, with_base
+from fem.solution.moving_base import moving_base, say_of_motion, with_base
 from fem.solution.options import Options
 from fem.solution.requests import (
     ELEMENT_RESULTS,
@@ -94,7 +101,8 @@ def solve_transients(
 
 
 def _same_system(c: Subcase) -> tuple[object, ...]:
-    return system_of(c), c.tstep, c.method, c.sdamping, c.analysis
+    added = c.k2pp, c.b2pp, c.m2pp, c.tfl
+    return system_of(c), added, c.tstep, c.method, c.sdamping, c.analysis
 
 
 def _is_modal(model: Structure) -> bool:
@@ -109,8 +117,7 @@ def _direct(
     steps = _steps(model, cases, options)
     inputs = _inputs(model, cases)
     load_g = inputs.load
-    if any(inputs.motions):
-        say_what_is_absolute(model, options)
+    say_of_motion(model, inputs.motions, options)
 
     def inform(text: str) -> None:
         size = results.size_bytes() / 1e6
@@ -120,27 +127,51 @@ def _direct(
     def run(model: Structure) -> tuple[Float64, list[Observer]]:
         results.discard(*(f"transient/{case.id}" for case in cases))
         reduced = analysis_model(model, solver=options.solver)
+        reduced = with_dynamic_input(model, reduced)
         base = moving_base(model, inputs.motions, steps)
         load, expand = with_base(base, model, reduced, load_g)
         observers = _observers(model, cases, expand, inputs, results, options)
-        time = direct_transient(
-            reduced.stiffness,
-            reduced.mass,
-            reduced.damping,
-            steps=steps,
-            load=load,
-            u0=_start(model, reduced, inputs.u0, options),
-            v0=_start(model, reduced, inputs.v0, options),
-            observers=observers if base is None else base.seen_by(observers),
-            solver=options.solver,
-            threads=options.threads,
-            progress=options.console.progress("direct transient"),
-            inform=inform,
-        ).time
+        start = [_start(model, reduced, x, options) for x in (inputs.u0, inputs.v0)]
+        seen = observers if base is None else base.seen_by(observers)
+        time = _integrate(
+            model, cases, reduced, steps, load, start, seen, options, inform
+        )
         return time, observers
 
     time, observers = solve_or_hold(model, run, options.console, SingularMatrixError)
     _finish(cases, time, observers, results)
+
+
+def _integrate(
+    model: Structure,
+    cases: list[Subcase],
+    reduced: AnalysisModel,
+    steps: list[tuple[int, float, int]],
+    load: TransientLoad,
+    start: Sequence[Float64 | None],
+    observers: Sequence[Observer],
+    options: Options,
+    inform: Callable[[str], None] | None = None,
+) -> Float64:
+    """Output times of a direct transient, loads that follow the motion included."""
+    stiffness, mass, damping, kind = reduced.system
+    following = nonlinear_load(model.deck, model.points, cases, reduced.rows)
+    return direct_transient(
+        stiffness,
+        mass,
+        damping,
+        steps=steps,
+        load=load,
+        u0=start[0],
+        v0=start[1],
+        observers=observers,
+        scheme=NastranScheme(following),
+        kind=kind,
+        solver=options.solver,
+        threads=options.threads,
+        progress=options.console.progress("direct transient"),
+        inform=inform,
+    ).time
 
 
 def _modal(
@@ -152,9 +183,9 @@ def _modal(
     if modes.count < found.count:
         options.console.say(f"{modes.count} of {found.count} modes are used")
     inputs = _inputs(model, cases)
+    say_of_motion(model, inputs.motions, options)
     base = moving_base(model, inputs.motions, steps)
     if base is not None:
-        say_what_is_absolute(model, options)
         shape = carried_shape(base.shape, model, reduced, modes, solver=options.solver)
         base = replace(base, shape=shape)
     load, expand = with_base(base, model, reduced, inputs.load)
@@ -166,6 +197,20 @@ def _modal(
             reduced.stiffness, reduced.mass, modes, load.pattern, solver=options.solver
         )
         options.console.say(f"{modes.count - count} residual vectors")
+    ratio = modal_ratios(model.deck, model.subcase, modes.frequency_hz)
+    coupled = with_dynamic_input(model, in_modes(reduced, modes, ratio))
+    start = [_start(model, reduced, x, options) for x in (inputs.u0, inputs.v0)]
+    if coupled.direct is not None or any(case.nonlinear for case in cases):
+        load, expand = with_base(base, model, coupled, inputs.load)
+        observers = _observers(model, cases, expand, inputs, results, options)
+        seen = observers if base is None else base.seen_by(observers)
+        start = [
+            _in_modes(model, reduced, modes, own, x)
+            for own, x in zip(start, (inputs.u0, inputs.v0))
+        ]
+        time = _integrate(model, cases, coupled, steps, load, start, seen, options)
+        _finish(cases, time, observers, results)
+        return
     observers = _observers(model, cases, expand, inputs, results, options)
     time = modal_transient(
         modes,
@@ -173,13 +218,34 @@ def _modal(
         reduced.damping,
         steps=steps,
         load=load,
-        ratio=modal_ratios(model.deck, model.subcase, modes.frequency_hz),
-        u0=_start(model, reduced, inputs.u0, options),
-        v0=_start(model, reduced, inputs.v0, options),
+        ratio=ratio,
+        u0=start[0],
+        v0=start[1],
         observers=observers if base is None else base.seen_by(observers),
         progress=options.console.progress("modal transient"),
     )
     _finish(cases, time, observers, results)
+
+
+def _in_modes(
+    model: Structure,
+    reduced: AnalysisModel,
+    modes: Modes,
+    start: Float64 | None,
+    given: Float64,
+) -> Float64:
+    """(c, e + m) initial values of extra points, and modal coordinates.
+
+    Args:
+        model, reduced, modes: what moves.
+        start: (c, n) initial values of the analysis set; None: zero.
+        given: (c, g) those of the g-set.
+    """
+    own = np.zeros((len(given), modes.count))
+    if start is not None:
+        own = (reduced.mass @ start.T).T @ modes.shape
+    extra = model.points.extra_dof if model.dynamic_input is not None else []
+    return np.hstack([given[:, extra], own])
 
 
 def _steps(
@@ -257,7 +323,8 @@ def _start(
         return None
     rows = reduced.rows
     given = np.flatnonzero(state.any(axis=0))
-    unused = [model.points.label(int(dof)) for dof in np.setdiff1d(given, rows)]
+    known = np.union1d(rows, model.points.extra_dof)
+    unused = [model.points.label(int(dof)) for dof in np.setdiff1d(given, known)]
     if unused:
         options.console.say(
             "warning: TIC is not used on constrained, dependent or omitted freedoms: "

@@ -1,4 +1,4 @@
-"""Sparse direct factorisation of symmetric matrices behind one small interface.
+"""Sparse direct factorisation of matrices behind one small interface.
 
 MKL's PARDISO is the default where its library is installed (x86-64); scipy's SuperLU
 serves everywhere else. Both keep the factor in memory and solve for single vectors
@@ -7,6 +7,7 @@ and for blocks of right-hand sides; blocks are several times cheaper per column.
 
 from fem.algebra.linear_solver.interface import (
     Factorization,
+    Kind,
     SingularMatrixError,
     SolverName,
     default_threads,
@@ -17,6 +18,7 @@ from fem.algebra.linear_solver.superlu import SuperLuFactorization
 
 __all__ = [
     "Factorization",
+    "Kind",
     "PardisoFactorization",
     "SingularMatrixError",
     "SolverName",

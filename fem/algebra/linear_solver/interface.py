@@ -7,7 +7,7 @@ import numpy as np
 
 from fem.arrays import Float64
 
-Kind = Literal["spd", "symmetric"]
+Kind = Literal["spd", "symmetric", "general"]
 SolverName = Literal["pardiso", "superlu"]
 
 
@@ -25,12 +25,13 @@ class SingularMatrixError(ArithmeticError):
 
 
 class Factorization(Protocol):
-    """A factorised symmetric matrix A of order n; a context manager.
+    """A factorised matrix A of order n; a context manager.
 
     Attributes:
         n: order of the matrix.
         inertia: number of negative eigenvalues of A (Sylvester's law), 0 for a
-            positive definite matrix; None where pivoting made the count unsafe.
+            positive definite matrix; None where pivoting made the count unsafe, and
+            for matrices that are not symmetric.
         perturbed_pivots: pivots that the solver had to replace.
         nnz_factor: stored entries of one triangle of the factor.
         memory_bytes: memory that the factor holds.

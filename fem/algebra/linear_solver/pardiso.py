@@ -1,8 +1,8 @@
 """MKL's PARDISO through ctypes: no per-call checks, no refinement, no copies.
 
-The matrix is handed over as the upper triangle in compressed rows, zero-based
-(iparm 35). Solves run phase 33 only. Thread counts are set for each call and put back,
-so that other users of MKL in the process keep theirs.
+The matrix is handed over in compressed rows, zero-based (iparm 35): the upper triangle,
+or all of it where it is not symmetric. Solves run phase 33 only. Thread counts are set
+for each call and put back, so that other users of MKL in the process keep theirs.
 
 Reference: oneMKL Developer Reference, "oneMKL PARDISO Parameters in Tabular Form".
 """
@@ -26,7 +26,7 @@ from fem.algebra.linear_solver.interface import (
     room_for_solution,
 )
 
-_MATRIX_TYPE = {"spd": 2, "symmetric": -2}
+_MATRIX_TYPE = {"spd": 2, "symmetric": -2, "general": 11}
 _ANALYSE, _FACTORISE, _SOLVE, _RELEASE = 11, 22, 33, -1
 
 # Positions in iparm (zero-based; the manual counts from one).
@@ -78,9 +78,12 @@ def pardiso_is_available() -> bool:
     return _library() is not None
 
 
-def _upper_triangle(matrix: sp.spmatrix | sp.sparray) -> sp.csr_matrix:
-    """Upper triangle with every diagonal entry present, as PARDISO demands."""
-    upper = sp.coo_matrix(sp.triu(matrix))
+def _entries(matrix: sp.spmatrix | sp.sparray, kind: Kind) -> sp.csr_matrix:
+    """Upper triangle with every diagonal entry present, as PARDISO demands.
+
+    Both triangles of a matrix that is not symmetric.
+    """
+    upper = sp.coo_matrix(matrix if kind == "general" else sp.triu(matrix))
     diagonal = np.arange(matrix.shape[0])
     # Duplicates are summed: explicit zeros complete the pattern, values stay.
     rows = np.append(upper.row, diagonal)
@@ -95,13 +98,15 @@ class PardisoFactorization:
     """A matrix factorised by PARDISO; see `Factorization` for the attributes.
 
     Args:
-        matrix: (n, n) symmetric; only the upper triangle is read.
-        kind: "spd" for a Cholesky, "symmetric" for an L D Lᵀ factorisation.
+        matrix: (n, n); only the upper triangle is read, unless kind is "general".
+        kind: "spd" for a Cholesky, "symmetric" for an L D Lᵀ factorisation, "general"
+            for L U with pivots that are looked for.
         threads: threads for factorisation and solves; None: `default_threads()`.
         columns: right-hand sides of the many solves to come, see `factorize`.
 
     Raises:
-        SingularMatrixError: zero pivot, or a negative one with kind "spd".
+        SingularMatrixError: zero pivot, or a negative one with kind "spd", or one that
+            had to be replaced with kind "general".
         MemoryError: the factor does not fit.
     """
 
@@ -118,16 +123,17 @@ class PardisoFactorization:
             raise RuntimeError("MKL's library libmkl_rt is not installed")
         self._mkl = library
         self._threads = threads or default_threads()
-        self._upper = _upper_triangle(matrix)
+        self._given = _entries(matrix, kind)
         self.n: int = matrix.shape[0]
-        self._indptr = np.ascontiguousarray(self._upper.indptr, dtype=np.int32)
-        self._indices = np.ascontiguousarray(self._upper.indices, dtype=np.int32)
+        self._indptr = np.ascontiguousarray(self._given.indptr, dtype=np.int32)
+        self._indices = np.ascontiguousarray(self._given.indices, dtype=np.int32)
         self._handle = np.zeros(64, dtype=np.int64)
         self._type = _MATRIX_TYPE[kind]
         self._iparm = np.zeros(64, dtype=np.int32)
         self._iparm[[_OWN_VALUES, _ZERO_BASED]] = 1, 1
         self._iparm[_PIVOT_EXPONENT] = 8 if kind == "symmetric" else 13
-        self._iparm[[_REFINEMENT, _SCALING, _MATCHING]] = 0
+        self._iparm[_REFINEMENT] = 0
+        self._iparm[[_SCALING, _MATCHING]] = kind == "general"
         self._iparm[[_FACTOR_NNZ]] = -1
         self._open = True
         few = columns is not None and columns <= _FEW
@@ -157,8 +163,12 @@ class PardisoFactorization:
         except Exception:
             self.close()
             raise
-        self.inertia = int(self._iparm[_NEGATIVE]) if kind == "symmetric" else 0
+        negative = int(self._iparm[_NEGATIVE]) if kind == "symmetric" else 0
+        self.inertia = None if kind == "general" else negative
         self.perturbed_pivots = int(self._iparm[_PERTURBED])
+        if kind == "general" and self.perturbed_pivots:
+            self.close()
+            raise SingularMatrixError(None)
         self.nnz_factor = int(self._iparm[_FACTOR_NNZ])
         kilobytes = int(self._iparm[_SYMBOLIC_KB]) + int(self._iparm[_FACTOR_KB])
         self.memory_bytes = 1024 * max(kilobytes, int(self._iparm[_PEAK_KB]))
@@ -190,7 +200,7 @@ class PardisoFactorization:
                 by(integer(self._type)),
                 by(integer(phase)),
                 by(integer(self.n)),
-                pointer(self._upper.data),
+                pointer(self._given.data),
                 pointer(self._indptr),
                 pointer(self._indices),
                 void(None),

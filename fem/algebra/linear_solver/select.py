@@ -16,12 +16,12 @@ def factorize(
     solver: SolverName | None = None,
     columns: int | None = None,
 ) -> Factorization:
-    """Factorise a sparse symmetric matrix.
+    """Factorise a sparse matrix.
 
     Args:
-        matrix: (n, n) sparse, symmetric, both triangles given.
+        matrix: (n, n) sparse, both triangles given.
         kind: "spd" for positive definite matrices, "symmetric" for indefinite ones
-            (gives the inertia).
+            (gives the inertia), "general" for those that are not symmetric.
         threads: threads of PARDISO; None: the environment's number, else all cores.
         solver: "pardiso", "superlu" or None: PARDISO where it is installed.
         columns: right-hand sides at a time, where very many solves follow. For few,

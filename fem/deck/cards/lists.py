@@ -33,6 +33,25 @@ def spc1(f: Fields) -> Rows:
     return rows + [{**row, "g": part.first, "thru": part} for part in ranges]
 
 
+def tf(f: Fields) -> Rows:
+    """A transfer function, from its second line on a line for each other freedom."""
+    groups = list(f.groups(9, 5, 8))
+    return [
+        {
+            "sid": f.integer(1, "SID"),
+            "gd": f.integer(2, "GD"),
+            "cd": f.integer(3, "CD", 0),
+            **{f"b{k}": f.real(4 + k, f"B{k}", 0.0) for k in range(3)},
+            "grids": np.array([f.integer(k, "G") for k in groups], np.int64),
+            "comps": np.array([f.integer(k + 1, "C", 0) for k in groups], np.int64),
+            "factors": np.array(
+                [[f.real(k + 2 + j, f"A{j}", 0.0) for j in range(3)] for k in groups],
+                float,
+            ).reshape(-1, 3),
+        }
+    ]
+
+
 def freedoms(f: Fields) -> Rows:
     """ASET1, BSET1, CSET1, OMIT1 and QSET1."""
     c = f.components(1, "C", "0")

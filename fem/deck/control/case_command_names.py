@@ -37,6 +37,8 @@ NUMBERS = {
     "NSM": "nsm",
     "MASSSET": "massset",
     "DEFORM": "deform",
+    "TFL": "tfl",
+    "NONLINEAR": "nonlinear",
 }
 NAMES = {
     name: name.lower()
@@ -46,16 +48,14 @@ TITLES = {"TITLE": "title", "SUBTITLE": "subtitle", "LABEL": "label"}
 
 # They change the structure itself, whatever is solved.
 MODEL_REFUSED = {
-    "K2PP": "K2GG adds a symmetric matrix",
-    "M2PP": "M2GG adds a symmetric matrix",
-    "B2PP": "B2GG adds a symmetric matrix",
     "A2GG": "there is no coupling to fluids",
     "MFLUID": "there is no virtual mass of fluids",
     "RGYRO": "there are no rotors",
-    "TFL": "there are no transfer functions",
     "DSYM": "there is no symmetry about planes",
     "HARMONICS": "there are no axisymmetric elements",
 }
+# Added to the matrices by dynamic solutions of the deck's own.
+DYNAMIC_INPUT = ("K2PP", "B2PP", "M2PP", "TFL")
 # They change what a solution of the deck's own finds, and nothing here does it.
 SOLUTION_REFUSED = {
     "BCONTACT": "there is no contact",
@@ -64,7 +64,6 @@ SOLUTION_REFUSED = {
     "BOLTLD": "there are no bolt preloads",
     "MODSEL": "EIGRL, PARAM LFREQ, HFREQ and LMODES choose modes",
     "MODESELECT": "EIGRL, PARAM LFREQ, HFREQ and LMODES choose modes",
-    "NONLINEAR": "there are no NOLIN loads",
     "RSDAMP": "there is no damping of residual structures",
     "TSTRU": "temperatures are given by TEMP cards",
 }

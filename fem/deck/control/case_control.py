@@ -141,6 +141,8 @@ class _Reader:
             )
         elif name in commands.SOLUTION_REFUSED:
             self.not_carried_out(command)
+        elif name in commands.DYNAMIC_INPUT and not self.refuse:
+            self.passed_over[name] = None
         elif name in commands.NUMBERS:
             self.number(command)
         elif name in commands.NAMES:

@@ -64,6 +64,8 @@ class Subcase:
     k2pp: str = ""
     m2pp: str = ""
     b2pp: str = ""
+    tfl: int = 0
+    nonlinear: int = 0
     p2g: str = ""
     combination: tuple[tuple[int, float], ...] = ()
     not_carried_out: tuple[str, ...] = ()

@@ -61,6 +61,8 @@ def targets_of(target: str) -> tuple[str, ...]:
     """Tables that a reference of a record may point to."""
     if target == "POINT":
         return "GRID", "SPOINT"
+    if target == "FREEDOM":
+        return "GRID", "SPOINT", "EPOINT"
     if target == "SURFACE":
         return tuple(topologies("surface"))
     if target == "FACES":

@@ -9,7 +9,9 @@ _TLOAD = "sid:i exciteid:i delay:u=0 type:s=0"
 
 
 RECORDS = (
-    Card(name="DAREA", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 a:f)", load=True),
+    Card(
+        name="DAREA", group=_GROUP, fields="sid:i (id:i>FREEDOM c:i=0 a:f)", load=True
+    ),
     Card(name="LSEQ", group=_GROUP, fields="sid:i exciteid:i lid:i=0 -", load=True),
     Card(
         name="DLOAD",
@@ -53,7 +55,7 @@ RECORDS = (
     Card(
         name="DPHASE",
         group=_GROUP,
-        fields="sid:i (id:i>POINT c:i=0 th:f=0.)",
+        fields="sid:i (id:i>FREEDOM c:i=0 th:f=0.)",
         load=True,
     ),
     Card(
@@ -87,7 +89,10 @@ RECORDS = (
         load=True,
     ),
     Card(
-        name="DELAY", group=_GROUP, fields="sid:i (id:i>POINT c:i=0 t:f=0.)", load=True
+        name="DELAY",
+        group=_GROUP,
+        fields="sid:i (id:i>FREEDOM c:i=0 t:f=0.)",
+        load=True,
     ),
     Card(
         name="TABLED1",
@@ -106,10 +111,33 @@ RECORDS = (
     ),
     Card(name="TABLED3", group=_GROUP, read=lists.tabled3, table="TABLED2"),
     Card(name="TABLED4", group=_GROUP, read=lists.tabled4, table="TABLED2"),
+    # Rows b0, b1, b2 of the freedom itself; factors: (n, 3) of the others.
+    Card(
+        name="TF",
+        group=_GROUP,
+        read=lists.tf,
+        more="sid:i gd:i>FREEDOM cd:i b0:f b1:f b2:f grids:*>FREEDOM comps:* factors:*",
+        load=True,
+    ),
+    # Loads that depend on displacements, or velocities (components of 10 and more).
+    *(
+        Card(
+            name=f"NOLIN{kind}",
+            group=_GROUP,
+            fields=f"sid:i gi:i>FREEDOM ci:i=0 s:f gj:i>FREEDOM cj:i=0 {rest}",
+            load=True,
+        )
+        for kind, rest in (
+            (1, "tid:i>TABLED1|TABLED2"),
+            (2, "gk:i>FREEDOM ck:i=0"),
+            (3, "a:f"),
+            (4, "a:f"),
+        )
+    ),
     Card(
         name="TIC",
         group=_GROUP,
-        fields="sid:i id:i>POINT c:i=0 u0:f=0. v0:f=0.",
+        fields="sid:i id:i>FREEDOM c:i=0 u0:f=0. v0:f=0.",
         load=True,
     ),
     Card(

@@ -11,7 +11,8 @@ card; each group becomes a row.
 
 Dimensions are products of M (mass) and L (length): `ML2`, `M/L3`; `1` has none, which
 goes without saying beside fields that have one. References name the cards whose ids
-may stand there, or GRID, POINT (grid or scalar point), CORD, SURFACE (elements with one
+may stand there, or GRID, POINT (grid or scalar point), FREEDOM (extra points, too),
+CORD, SURFACE (elements with one
 face), FACES (elements with faces); a blank, 0, is admitted by GRID?, and by all others.
 """
 

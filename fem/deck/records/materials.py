@@ -45,7 +45,7 @@ RECORDS = (
         name="DMIG",
         group="Matrices",
         gather=dmig.read_dmig,
-        more="name:s form:i rowids:*>POINT rowcs:* colids:*>POINT colcs:* values:*",
+        more="name:s form:i rowids:*>FREEDOM rowcs:* colids:*>FREEDOM colcs:* values:*",
         convert=conversions.matrix,
     ),
 )

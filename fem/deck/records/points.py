@@ -35,6 +35,8 @@ RECORDS = (
         convert=conversions.grid,
     ),
     Card(name="SPOINT", group=_GROUP, read=lists.spoint, more="id:i", ids="point"),
+    # Freedoms of dynamic solutions: of control systems, with K2PP or TF.
+    Card(name="EPOINT", group=_GROUP, read=lists.spoint, more="id:i", ids="point"),
     # Normal of the shells at a grid, where PARAM SNORM is above 0.
     Card(
         name="SNORM",

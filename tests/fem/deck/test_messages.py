@@ -156,7 +156,7 @@ def test_modes_of_a_modal_transient_may_be_limited(say, params, words):
     assert words in text
 
 
-@pytest.mark.parametrize("command", ["K2PP=STIF", "BOLTLD=3", "STATSUB=1"])
+@pytest.mark.parametrize("command", ["A2GG=STIF", "BOLTLD=3", "STATSUB=1"])
 def test_commands_that_would_change_the_answer_are_refused(say, command):
     status, text = say(101, f"SPC=1\nLOAD=1\n{command}", BAR)
     assert status == 2

@@ -49,7 +49,7 @@ def test_deck_without_subcases_has_one(read):
         ("SPC = X", "expected an integer"),
         ("DISP = 9", "set 9 is not defined"),
         ("LAOD = 1", "LAOD is no case control command; did you mean 'LOAD'"),
-        ("K2PP = A", "K2GG adds a symmetric matrix"),
+        ("A2GG = A", "no coupling to fluids"),
         ("SUBCOM 2", "no subcase before"),
         ("SUBCASE 1\nSUBCOM 2\nSUBSEQ = 1., 2.", "2 factors for the 1 subcases"),
         ("OUTPUT(XYPLOT)\nSPC = 1", "reads no selections"),
