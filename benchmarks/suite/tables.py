@@ -108,7 +108,8 @@ def _table(table: Any) -> Table | None:
     data = getattr(table, "data", None)
     if data is None or data.ndim != 3:
         return None
-    for name in ("element_node", "element_layer", "node_gridtype", "element"):
+    names = ("element_node", "element_layer", "element_layer_node", "node_gridtype")
+    for name in (*names, "element"):
         owner = getattr(table, name, None)
         if owner is not None:
             break
@@ -130,7 +131,10 @@ def _table(table: Any) -> Table | None:
         seen[key] = seen.get(key, 0) + 1
         keys.append((*key, seen[key]))  # the fibres of one place follow each other
     number = complex if np.iscomplexobj(data) else float
-    return Table(keys, data.astype(number), tuple(table.get_headers()))
+    headers = tuple(table.get_headers())
+    if len(headers) != data.shape[2]:  # plies of solids have others than it says
+        headers = tuple(f"column {k + 1}" for k in range(data.shape[2]))
+    return Table(keys, data.astype(number), headers)
 
 
 _VECTOR = re.compile(r"^0?\s*(\d+)\s+[GS]\s+(.*)$")

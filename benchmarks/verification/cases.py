@@ -72,6 +72,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         quadratic_solids.cubes_under_a_corner_force,
         quadratic_solids.cubes_in_time,
         quadratic_solids.distorted_tetra10,
+        quadratic_solids.layered_bricks,
         cantilevers.cantilever_bar,
         cantilevers.cantilever_plate,
         commercial.reductions,

@@ -99,7 +99,7 @@ _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
         "bodies of revolution are not",
     ),
     (("CPLSTN", "CPLSTS", "PPLANE"), "plane strain and plane stress solids are not"),
-    (("PCOMPS", "PCOMPLS"), "layered solids are not"),
+    (("PCOMPLS",), "PCOMPS describes layered solids"),
 )
 
 

@@ -251,7 +251,8 @@ def element_layouts(
 
 
 def _plies(solution: Solution, result: ElementResult) -> Callable[[int], Words]:
-    return lambda k: ply_words(result.id, solution.state(result.dataset, k))
+    own = sum(name.endswith("_p1") for name in result.columns)
+    return lambda k: ply_words(result.id, solution.state(result.dataset, k), own)
 
 
 def _grids_of(structure: Structure, card: str, ids: Int64) -> Int64:

@@ -195,12 +195,18 @@ def plies_of(table: str) -> int:
     return card.element.op2.plies
 
 
-def ply_words(id: Int64, values: Float64) -> Float32:
-    """(r, 11) words of ply results (e, 9 p); plies that an element lacks are NaN."""
-    plies = values.reshape(len(id), -1, 9)
+def ply_words(id: Int64, values: Float64, columns: int) -> Float32:
+    """(r, 11) words of ply results (e, c p); plies that an element lacks are NaN.
+
+    With the seven columns of solids the place in the ply, its middle, and a grid, none,
+    stand before them.
+    """
+    plies = values.reshape(len(id), -1, columns)
     element, ply = np.nonzero(np.isfinite(plies[:, :, 0]))
     out = np.zeros((len(element), 11), "<f4")
     integers = out.view("<i4")
     integers[:, 0], integers[:, 1] = 10 * id[element] + DEVICE, ply + 1
-    out[:, 2:] = plies[element, ply]
+    if columns < 9:
+        integers[:, 2] = int.from_bytes(b"MID ", "little")
+    out[:, 11 - columns :] = plies[element, ply]
     return out

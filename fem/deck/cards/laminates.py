@@ -1,5 +1,7 @@
 """PCOMP and PCOMPG, and PCOMP1, PCOMP2 (plies of one material), as rows of PCOMP.
 
+PCOMPS, of solids, has a table of its own.
+
 With LAM SYM, SYMEM, SYBEND or SYSMEAR the plies are the lower half; the bottom lies
 half of the whole thickness below the reference surface then, where Z0 is blank.
 """
@@ -25,6 +27,40 @@ def pcompg(f: Fields) -> Rows:
     first = list(f.groups(9, 8))
     numbers = [f.integer(k, "GPLYID") for k in first]
     return _plies(f, [k + 1 for k in first], numbers)
+
+
+def pcomps(f: Fields) -> Rows:
+    """Plies of solids: a line of eight fields each; thicknesses count by their ratios.
+
+    Raises:
+        Malformed: some are given relative to the element, others are not.
+    """
+    first = list(f.groups(9, 8))
+    flags = {f.word(k + 7, "TFLAG", "REL") for k in first}
+    if len(flags) > 1:
+        raise Malformed(
+            f"fields TFLAG: found {' and '.join(sorted(flags))}, expected one"
+        )
+    mids = np.array([f.integer(k + 1, "MID") for k in first], np.int64)
+    ts = np.array([f.real(k + 2, "T") for k in first], float)
+    if not len(first) or ts.min() <= 0.0:
+        raise Malformed("ply thickness T: expected positive numbers, at least one")
+    psdir = f.components(3, "PSDIR", "13")
+    if len(psdir) != 2 or not {*psdir} < {*"123"}:
+        raise Malformed(f"field PSDIR: found '{psdir}', expected two of 1, 2 and 3")
+    return [
+        {
+            "pid": f.integer(1, "PID"),
+            "cordm": f.integer(2, "CORDM", 0),
+            "psdir": psdir,
+            "tref": f.real(6, "TREF", 0.0),
+            "ge": f.real(7, "GE", 0.0),
+            "mids": mids,
+            "ts": ts,
+            "thetas": np.array([f.real(k + 3, "THETA", 0.0) for k in first]),
+            "plies": np.array([f.integer(k, "GPLYID") for k in first], np.int64),
+        }
+    ]
 
 
 def _plies(f: Fields, first: list[int], numbers: list[int] | None = None) -> Rows:

@@ -149,6 +149,31 @@ def mat9(f: Fields) -> Rows:
     return [{**row, "rho": f.real(23, "RHO", 0.0), "ge": f.real(31, "GE", 0.0)}]
 
 
+def mat11(f: Fields) -> Rows:
+    """A solid of three planes of symmetry as a MAT9.
+
+    Raises:
+        Malformed: moduli that are not positive, ratios that no solid has.
+    """
+    e1, e2, e3 = (f.real(k + 2, f"E{k + 1}") for k in range(3))
+    nu12, nu13, nu23 = (f.real(k + 5, f"NU{n}") for k, n in enumerate((12, 13, 23)))
+    g12, g13, g23 = (f.real(k + 8, f"G{n}") for k, n in enumerate((12, 13, 23)))
+    if min(e1, e2, e3, g12, g13, g23) <= 0.0:
+        raise Malformed("moduli E and G: expected positive numbers")
+    compliance = np.diag(1.0 / np.array([e1, e2, e3, g12, g23, g13]))
+    for i, j, value in ((0, 1, nu12 / e1), (0, 2, nu13 / e1), (1, 2, nu23 / e2)):
+        compliance[i, j] = compliance[j, i] = -value
+    if np.linalg.eigvalsh(compliance)[0] <= 0.0:
+        raise Malformed(
+            f"NU12 {nu12:g}, NU13 {nu13:g}, NU23 {nu23:g}: with these E the material "
+            "would give energy away; expected smaller ratios"
+        )
+    alphas = np.array([f.real(12 + k, f"A{k + 1}", 0.0) for k in range(3)] + [0.0] * 3)
+    row: Row = {"mid": f.integer(1, "MID"), "gs": np.linalg.inv(compliance)}
+    row.update(alphas=alphas, tref=f.real(15, "TREF", 0.0))
+    return [{**row, "rho": f.real(11, "RHO", 0.0), "ge": f.real(16, "GE", 0.0)}]
+
+
 def rbe2(f: Fields) -> Rows:
     texts = [text for text in f.card.fields[4:] if text]
     # ALPHA and TREF may follow the grids; they act with temperatures only.

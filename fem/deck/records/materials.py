@@ -40,6 +40,7 @@ RECORDS = (
         more="mid:i gs:*[M/L] rho:f[M/L3] ge:f alphas:* tref:f",
         ids="material",
     ),
+    Card(name="MAT11", group=_GROUP, read=lists.mat11, table="MAT9", ids="material"),
     # Complete, both triangles; columns of text and numbers.
     Card(
         name="DMIG",

@@ -5,14 +5,24 @@ nodes: (n,) corners, then mid-sides, 0 for those that are not there.
 
 from functools import partial
 
-from fem.deck.cards import lists
+from fem.deck.cards import laminates, lists
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
+from fem.deck.records.shells import of_plies
 
 _GROUP = "Solids"
-_COLUMNS = "eid:i pid:i>PSOLID nodes:*>GRID?"
+_COLUMNS = "eid:i pid:i>PSOLID|PCOMPS nodes:*>GRID?"
 _PRINCIPAL = ("major", "mid", "minor", "von_mises")
 SOLID_STRESS = ("oxx", "oyy", "ozz", "txy", "tyz", "txz", *_PRINCIPAL)
 SOLID_STRAIN = ("exx", "eyy", "ezz", "exy", "eyz", "exz", *_PRINCIPAL)
+# In the middle of plies (PCOMPS), in their axes.
+LAYER_STRESS = ("o11", "o22", "o33", "t12", "t23", "t13", "von_mises")
+LAYER_STRAIN = ("e11", "e22", "e33", "e12", "e23", "e13", "von_mises")
+_LAYERS = Result(
+    kinds=("stress", "strain"),
+    columns=of_plies(LAYER_STRESS, 1),
+    table="_COMPOSITE",
+    remark="PCOMPS, one group per ply",
+)
 _RESULTS = (
     Result(
         kinds=("stress", "strain"),
@@ -68,7 +78,17 @@ PYRAMID = Topology(
 )
 
 
-def _solid(name: str, topology: Topology, reader: str, op2: int) -> Card:
+def _op2(type: int, plies: int = 0) -> Op2:
+    return Op2(type=type, plies=plies, stress="solid")
+
+
+def _solid(
+    name: str,
+    topology: Topology,
+    reader: str,
+    op2: Op2,
+    results: tuple[Result, ...] = _RESULTS,
+) -> Card:
     most = topology.corners + len(topology.edges)
     return Card(
         name=name,
@@ -79,23 +99,38 @@ def _solid(name: str, topology: Topology, reader: str, op2: int) -> Card:
         element=Element(
             reader=reader,
             topology=topology,
-            op2=Op2(type=op2, stress="solid"),
-            results=_RESULTS,
+            op2=op2,
+            results=results,
         ),
     )
 
 
 RECORDS = (
-    _solid("CHEXA", HEXA, "solids.hexa:read_chexa", 67),
-    _solid("CPENTA", PENTA, "solids.penta:read_cpenta", 68),
-    _solid("CTETRA", TETRA, "solids.tetra:read_ctetra", 39),
-    _solid("CPYRAM", PYRAMID, "solids.pyramid:read_cpyram", 255),
+    _solid(
+        "CHEXA",
+        HEXA,
+        "solids.hexa:read_chexa",
+        _op2(67, plies=269),
+        (*_RESULTS, _LAYERS),
+    ),
+    _solid("CPENTA", PENTA, "solids.penta:read_cpenta", _op2(68)),
+    _solid("CTETRA", TETRA, "solids.tetra:read_ctetra", _op2(39)),
+    _solid("CPYRAM", PYRAMID, "solids.pyramid:read_cpyram", _op2(255)),
     # cordm -1: element, 0: basic
     Card(
         name="PSOLID",
         group=_GROUP,
         fields="pid:i mid:i>MAT1|MAT9 cordm:i=0>CORD integ:s= stress:s= isop:s= "
         "fctn:s=SMECH",
-        ids="own",
+        ids="solid property",
+    ),
+    # psdir: directions of plies at 0 degrees and of the stack, in CORDM
+    Card(
+        name="PCOMPS",
+        group=_GROUP,
+        read=laminates.pcomps,
+        more="pid:i cordm:i>CORD psdir:c tref:f ge:f mids:*>MAT1|MAT9 ts:*[L] thetas:* "
+        "plies:*",
+        ids="solid property",
     ),
 )

@@ -22,6 +22,8 @@ from fem.elements.solids.isoparametric import (
     hex20,
     hex20_derivatives,
 )
+from fem.elements.solids.layered import LayeredSolid
+from fem.elements.solids.layered_reader import read_layered
 from fem.elements.solids.solid import Shape, Solid
 from fem.elements.solids.solid_reader import read_solids
 from fem.elements.solids.solid_stiffness import (
@@ -114,6 +116,9 @@ HEXA20 = Shape(
 )
 
 
-def read_chexa(deck: "Deck", points: Points) -> list[Solid]:
-    """The CHEXA blocks of a deck; see `read_solids`."""
-    return read_solids(deck, points, "CHEXA", (HEXA8, HEXA20))
+def read_chexa(deck: "Deck", points: Points) -> list[Solid | LayeredSolid]:
+    """The CHEXA blocks of a deck; see `read_solids` and `read_layered`."""
+    return [
+        *read_solids(deck, points, "CHEXA", (HEXA8, HEXA20)),
+        *read_layered(deck, points, HEXA8),
+    ]

@@ -36,6 +36,13 @@ def read_solids(
         InputError: undefined references, elements turned inside out; all of them.
     """
     rows = table(deck, card).sort_values("eid", ignore_index=True)
+    layered = rows["pid"].isin(table(deck, "PCOMPS")["pid"])
+    if layered.any() and card != "CHEXA":
+        raise InputError(
+            f"{where(card, rows[layered].iloc[0])}: {card} with PCOMPS is not "
+            "supported; expected CHEXA with eight grids, or PSOLID"
+        )
+    rows = rows[~layered].reset_index(drop=True)
     if rows.empty:
         return []
     nodes = [np.asarray(n, dtype=np.int64) for n in rows["nodes"]]

@@ -146,7 +146,7 @@ def test_scalar_points_that_their_use_defines(solve):
         "AEROS,,,1.,10.,10.\nCAERO1,1001,1\nAELIST,7,1001,THRU,1008\nTRIM,1,.3",
         "PBEAM3,77,3,1.,1.,1.,1.",
         "PBARL,78,999,,ROD\n,.1",  # no element has it, no material is looked for
-        "BCTABLE,1\nNOLIN1,1\nEPOINT,99\nPELAST,7\nPBUSHT,7",
+        "BCTABLE,1\nTEMPN1,1\nEPOINT,99\nPELAST,7\nPBUSHT,7",
     ],
 )
 def test_cards_that_cannot_matter_are_named_and_passed_over(solve, passenger):
