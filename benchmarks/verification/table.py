@@ -30,7 +30,6 @@ stands in the table with a wider target, and the accurate figure beside it:
 - `transient_solid_shell_bar`: the OP2 file was made without the five elements CELAS1,
   CELAS2, CDAMP2, CONROD and CSHEAR of the deck: its loads add up to the mass without
   them, and it holds no results of theirs. They are left out in the comparison.
-- `tst1d3`: PLOAD1 on CBEND is not supported; its structure stands apart.
 """
 
 

@@ -94,9 +94,9 @@ _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
     (
         _words(
             "AXIC CCONEAX FORCEAX PCONEAX RINGAX MOMAX SPCAX PRESAX TEMPAX CTRIAX "
-            "PTRIAX CTRAX CQUADX PLOADX PAXSYMH"
+            "PTRIAX CTRAX CQUADX PAXSYMH"
         ),
-        "bodies of revolution are not",
+        "of bodies of revolution CTRIAX6 is",
     ),
     (("CPLSTN", "CPLSTS", "PPLANE"), "plane strain and plane stress solids are not"),
     (("PCOMPLS",), "PCOMPS describes layered solids"),

@@ -127,12 +127,19 @@ def _references(tables: Tables) -> list[str]:
         for item in card.columns.values():
             if item.targets:
                 shown = _used_only(tables, name)
+                if (name, item.name) == ("DMIG", "colids"):
+                    shown = {**tables, name: _with_freedoms(tables[name])}
                 names = [t for word in item.targets for t in targets_of(word)]
                 known = np.concatenate([ids(tables, [t], key_of(t)) for t in names])
                 problems += _missing(
                     shown, name, item.name, known, _what(item), blank=item.blank
                 )
     return problems
+
+
+def _with_freedoms(table: pd.DataFrame) -> pd.DataFrame:
+    """DMIG whose columns are freedoms: those of form 9 have numbers."""
+    return table[table["form"] != 9].reset_index(drop=True)
 
 
 def _used_only(tables: Tables, name: str) -> Tables:

@@ -32,6 +32,7 @@ from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck, Superelement
 from fem.deck.design_variables import set_initial_values
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
+from fem.deck.prisms import turn_prisms
 from fem.deck.records import CARDS
 from fem.deck.superelements.images import (
     check_images,
@@ -269,6 +270,7 @@ def _deck(
     )
     if not problems:
         clean(tables, ignored, notices)
+        turn_prisms(tables, notices)
         if case.subcases:
             drop_unused_equations(tables, case.subcases, notices)
         problems += check(deck, partial=partial)

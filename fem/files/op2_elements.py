@@ -161,6 +161,15 @@ def _solid(op2: Op2, e: Elements) -> Layout:
     return Layout(type=op2.type, cells=cells)
 
 
+def _ring(op2: Op2, e: Elements) -> Layout:
+    """Centre and corners with their grids."""
+    cells: list[Cell] = [device(e)]
+    for k in range(e.points):
+        grid = np.zeros(1, np.int64) if k == 0 else e.grids[:, k - 1]
+        cells += [grid, *e.columns[7 * k : 7 * k + 7]]
+    return Layout(type=op2.type, cells=cells)
+
+
 _ARRANGEMENTS: dict[str, Callable[[Op2, Elements], Layout]] = {
     "simple": _simple,
     "rod": _rod_stress,
@@ -169,6 +178,7 @@ _ARRANGEMENTS: dict[str, Callable[[Op2, Elements], Layout]] = {
     "panel": _panel_stress,
     "plate": _plate,
     "solid": _solid,
+    "ring": _ring,
 }
 
 

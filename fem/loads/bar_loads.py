@@ -1,4 +1,4 @@
-"""PLOAD1: distributed and concentrated loads on CBAR and CBEAM.
+"""PLOAD1: distributed and concentrated loads on CBAR and CBEAM (CBEND: `bend_loads`).
 
 The load is brought to the ends of the element with the interpolation of a uniform
 Timoshenko beam (Przemieniecki, Theory of Matrix Structural Analysis, section 5.6):
@@ -20,13 +20,14 @@ import numpy.typing as npt
 import pandas as pd
 
 from fem.arrays import Float64, Int64
-from fem.deck.references import where
+from fem.deck.references import table, where
 from fem.elements.lines.bar import Bar, read_cbar
 from fem.elements.lines.beam import Beam, BeamSection
 from fem.elements.lines.beam_reader import read_cbeam
 from fem.errors import InputError
 from fem.geometry.points import Points
-from fem.loads.element_loads import ElementLoads
+from fem.loads.bend_loads import loads_of_bends
+from fem.loads.element_loads import ElementLoads, below_each_other
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -70,6 +71,13 @@ def loads_of_bars(deck: "Deck", points: Points, rows: pd.DataFrame) -> ElementLo
         InputError: as `bar_loads`.
     """
     _check(rows)
+    bent = rows["eid"].isin(table(deck, "CBEND")["eid"]).to_numpy(bool)
+    if bent.all():
+        return loads_of_bends(deck, points, rows)
+    if bent.any():
+        parts = loads_of_bends, loads_of_bars
+        chosen = rows[bent], rows[~bent]
+        return below_each_other([f(deck, points, r) for f, r in zip(parts, chosen)])
     lines = _lines(deck, points, rows["eid"].to_numpy(np.int64))
     start, end = _positions(rows, lines.length)
     direction = _directions(rows, lines)

@@ -16,6 +16,7 @@ from fem.loads.concentrated import CONCENTRATED
 from fem.loads.element_loads import ElementLoads, below_each_other
 from fem.loads.inertial import ACCELERATIONS, accelerations, spinning_masses
 from fem.loads.pressure import pload, pload2, pload4
+from fem.loads.ring_loads import ploadx, ploadx1
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -26,6 +27,8 @@ _ON_ELEMENTS = {
     "PLOAD1": bar_loads,
     "PLOAD2": pload2,
     "PLOAD4": pload4,
+    "PLOADX": ploadx,
+    "PLOADX1": ploadx1,
 }
 CARDS = (*CONCENTRATED, *_ON_ELEMENTS, *ACCELERATIONS)
 

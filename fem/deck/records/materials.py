@@ -40,6 +40,14 @@ RECORDS = (
         more="mid:i gs:*[M/L] rho:f[M/L3] ge:f alphas:* tref:f",
         ids="material",
     ),
+    # Of bodies of revolution: radial (X), azimuthal (TH), axial (Z).
+    Card(
+        name="MAT3",
+        group=_GROUP,
+        fields="mid:i ex:f[M/L] eth:f[M/L] ez:f[M/L] nuxth:f=0. nuthz:f=0. nuzx:f=0. "
+        "rho:f=0.[M/L3] - - gzx:f[M/L] ax:f=0. ath:f=0. az:f=0. tref:f=0. ge:f=0.",
+        ids="material",
+    ),
     Card(name="MAT11", group=_GROUP, read=lists.mat11, table="MAT9", ids="material"),
     # Complete, both triangles; columns of text and numbers.
     Card(

@@ -14,6 +14,10 @@ _COLUMNS = "eid:i pid:i>PSOLID|PCOMPS nodes:*>GRID?"
 _PRINCIPAL = ("major", "mid", "minor", "von_mises")
 SOLID_STRESS = ("oxx", "oyy", "ozz", "txy", "tyz", "txz", *_PRINCIPAL)
 SOLID_STRAIN = ("exx", "eyy", "ezz", "exy", "eyz", "exz", *_PRINCIPAL)
+RING_STRESS = (
+    *("radial", "azimuthal", "axial", "shear"),
+    *("major", "max_shear", "von_mises"),
+)
 # In the middle of plies (PCOMPS), in their axes.
 LAYER_STRESS = ("o11", "o22", "o33", "t12", "t23", "t13", "von_mises")
 LAYER_STRAIN = ("e11", "e22", "e33", "e12", "e23", "e13", "von_mises")
@@ -116,6 +120,25 @@ RECORDS = (
     _solid("CPENTA", PENTA, "solids.penta:read_cpenta", _op2(68)),
     _solid("CTETRA", TETRA, "solids.tetra:read_ctetra", _op2(39)),
     _solid("CPYRAM", PYRAMID, "solids.pyramid:read_cpyram", _op2(255)),
+    # Rings about the z axis of the basic frame; g2, g4, g6 are mid-sides.
+    Card(
+        name="CTRIAX6",
+        group=_GROUP,
+        fields="eid:i mid:i>MAT1|MAT3 g1:i>GRID g2:i=0>GRID? g3:i>GRID g4:i=0>GRID? "
+        "g5:i>GRID g6:i=0>GRID? th:f=0.[1]",
+        ids="own",
+        element=Element(
+            reader="solids.ring:read_ctriax6",
+            op2=Op2(type=53, stress="ring"),
+            results=(
+                Result(
+                    kinds=("stress", "strain"),
+                    columns=RING_STRESS,
+                    remark="centre, then corners (prefix c1_, c2_, c3_)",
+                ),
+            ),
+        ),
+    ),
     # cordm -1: element, 0: basic
     Card(
         name="PSOLID",

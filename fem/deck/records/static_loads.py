@@ -22,7 +22,7 @@ RECORDS = (
     _regular("PLOAD", "sid:i p:f g1:i>GRID g2:i>GRID g3:i>GRID g4:i=0>GRID?"),
     _regular(
         "PLOAD1",
-        "sid:i eid:i>CBAR|CBEAM type:s scale:s x1:f=0. p1:f=0. x2:f=nan p2:f=0.",
+        "sid:i eid:i>CBAR|CBEAM|CBEND type:s scale:s x1:f=0. p1:f=0. x2:f=nan p2:f=0.",
     ),
     Card(
         name="PLOAD2",
@@ -38,6 +38,11 @@ RECORDS = (
         more="sid:i eids:*>FACES p1:f p2:f p3:f p4:f g1:i>GRID? g34:i>GRID? cid:i>CORD "
         "n1:f n2:f n3:f sorl:s ldir:s",
         load=True,
+    ),
+    _regular("PLOADX", "sid:i p1:f p3:f g1:i>GRID g2:i=0>GRID? g3:i>GRID"),
+    _regular(
+        "PLOADX1",
+        "sid:i eid:i>CTRIAX6 pa:f pb:f=nan ga:i>GRID gb:i>GRID theta:f=0.",
     ),
     _regular("GRAV", f"sid:i cid:i=0>CORD a:f {_VECTOR} -"),
     Card(

@@ -20,16 +20,16 @@ t wall, p pressure; formula from memory, MSC's figures are met where k = 1):
     k = 1.65 r² / (t R) / (1 + 6 p r / (t E) (r / t)^(4/3) (R / r)^(1/3))
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from fem.arrays import Bool, Float64
+from fem.arrays import Bool, Float64, Int64
 from fem.deck.records.lines import BEND_FORCE
 from fem.deck.references import column, refer, table, where
-from fem.elements.block import Recovery
+from fem.elements.block import CENTRE, Detail, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.lines.line_geometry import congruence, skew
 from fem.elements.lines.orientation import orientation_vectors
@@ -92,7 +92,7 @@ class Bends(DenseBlock):
 
     def stiffness(self) -> Float64:
         axes = self.arc.axes(0.5 * (1.0 + _GAUSS))
-        through = _section_forces(axes, self.arc.places(axes), self.ends[:, 1])
+        through = section_forces(axes, self.arc.places(axes), self.ends[:, 1])
         flexible = np.einsum(
             "q,eqai,eab,eqbj->eij", _WEIGHT, through, self.compliance, through
         )
@@ -123,20 +123,43 @@ class Bends(DenseBlock):
         """Moments and shears of planes 1 and 2, axial force, torque at both ends."""
         at_b = self.stiffness()[:, 6:]
         axes = self.arc.axes(np.array([0.0, 1.0]))
-        through = _section_forces(axes, self.arc.places(axes), self.ends[:, 1])
+        through = section_forces(axes, self.arc.places(axes), self.ends[:, 1])
         section = np.einsum("eqai,eij->eqaj", through, at_b)
-        # V1 N V2 M2 T M1 to M1 M2 V1 V2 N T; M1 straightens the arc (MSC).
-        ordered = section[:, :, [5, 3, 0, 2, 1, 4]]
-        ordered[:, :, 0] *= -1.0
         return Recovery(
             table=self.card,
             columns=BEND_FORCE,
-            matrix=ordered.reshape(len(self.id), 12, 12),
+            matrix=_printed(section),
             id=self.id,
         )
 
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:
+        """(e, 12, 12) as `forces` from forces at the grids; nothing else is printed."""
+        if kind != "force":
+            return None
+        axes = self.arc.axes(np.array([0.0, 1.0]))
+        section = np.zeros((len(self.id), 2, 6, 12))
+        for half in (slice(0, 3), slice(3, 6)):
+            section[:, 0, half, half] = -axes[:, 0]
+            section[:, 1, half, slice(half.start + 6, half.stop + 6)] = axes[:, 1]
+        return _printed(section)
 
-def _section_forces(axes: Float64, places: Float64, at: Float64) -> Float64:
+    def take(self, which: Int64) -> "Bends":
+        """Some of the elements."""
+        arc = Arc(**{f.name: getattr(self.arc, f.name)[which] for f in fields(Arc)})
+        names = ("id", "dof", "ends", "compliance", "line_mass", "ge")
+        own = {name: getattr(self, name)[which] for name in names}
+        return replace(self, arc=arc, **own)
+
+
+def _printed(section: Float64) -> Float64:
+    """(e, 12, n) printed forces from those of both sections (e, 2, 6, n)."""
+    # V1 N V2 M2 T M1 to M1 M2 V1 V2 N T; M1 straightens the arc (MSC).
+    ordered = section[:, :, [5, 3, 0, 2, 1, 4]]
+    ordered[:, :, 0] *= -1.0
+    return ordered.reshape(len(section), 12, -1)
+
+
+def section_forces(axes: Float64, places: Float64, at: Float64) -> Float64:
     """(e, q, 6, 6) forces and moments at sections, their axes, from those at B."""
     lever = at[:, None] - places
     map_ = np.zeros((*axes.shape[:2], 6, 6))

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fem.arrays import Float64
+from fem.elements.solids.element_axes import penta_axes
 from fem.elements.solids.isoparametric import (
     PENTA_CORNERS,
     Rule,
@@ -32,7 +33,12 @@ from fem.elements.solids.isoparametric import (
 from fem.elements.solids.penta15 import PENTA15
 from fem.elements.solids.solid import Shape, Solid
 from fem.elements.solids.solid_reader import read_solids
-from fem.elements.solids.solid_stiffness import SolidMatrices, displacement_solid
+from fem.elements.solids.solid_stiffness import (
+    ShearLines,
+    SolidMatrices,
+    displacement_solid,
+    line_shear_solid,
+)
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -213,6 +219,13 @@ def penta6_full(nodes: Float64, elasticity: Float64, *, rule: Rule) -> SolidMatr
     return displacement_solid(nodes, elasticity, penta6_derivatives, rule, OUTPUT)
 
 
+def penta6_lines(nodes: Float64, elasticity: Float64) -> SolidMatrices:
+    """Six nodes without bubble functions: shear with the height halfway up it."""
+    lines = ShearLines(axes=penta_axes, centre=OUTPUT[:1], held=((0, 1), (2,), (2,)))
+    rule = product_penta(3, 2)
+    return line_shear_solid(nodes, elasticity, penta6_derivatives, rule, lines, OUTPUT)
+
+
 PENTA6 = Shape(
     card="CPENTA",
     nodes=6,
@@ -223,6 +236,7 @@ PENTA6 = Shape(
     mass_rule=gauss_penta(),
     checked=OUTPUT,
     integration={
+        ("TWO", "REDUCED"): penta6_lines,
         ("TWO", "FULL"): partial(penta6_full, rule=product_penta(3, 2)),
         ("THREE", "FULL"): partial(penta6_full, rule=product_penta(7, 3)),
     },

@@ -149,6 +149,62 @@ def reduced_shear_solid(
     )
 
 
+@dataclass(frozen=True, kw_only=True)
+class ShearLines:
+    """Where the shear strains of a linear element are taken, in its own axes.
+
+    Attributes:
+        axes: element axes (e, 3, 3) from the Jacobian at the centre.
+        centre: (1, 3) natural point.
+        held: for xy, yz and zx the natural coordinates that are those of the centre.
+    """
+
+    axes: Callable[[Float64], Float64]
+    centre: Float64
+    held: tuple[tuple[int, ...], ...]
+
+
+def line_shear_solid(
+    xyz: Float64,
+    elasticity: Float64,
+    derivatives: Derivatives,
+    rule: Rule,
+    lines: ShearLines,
+    at: Float64,
+) -> SolidMatrices:
+    """Displacement element whose shear strains vary along some directions only.
+
+    Shear of two directions is taken halfway along both: bending does not lock then.
+    Other arguments as for `displacement_solid`.
+    """
+    axes = lines.axes(jacobians(xyz, derivatives(lines.centre))[:, 0])
+    turn = stress_rotation(axes, strain=True)[:, None]
+
+    def strain(points: Float64) -> Float64:
+        own = turn @ _operator(xyz, derivatives, points)
+        for component, held in zip((3, 4, 5), lines.held):
+            moved = points.copy()
+            moved[:, held] = lines.centre[0, held]
+            own[:, :, component] = (turn @ _operator(xyz, derivatives, moved))[
+                :, :, component
+            ]
+        return np.linalg.solve(turn, own)
+
+    inside = strain(rule.points)
+    _, weight = _strain(xyz, derivatives, rule)
+    stress = elasticity[:, None] @ inside
+    return SolidMatrices(
+        stiffness=np.einsum("eq,eqsi,eqsj->eij", weight, inside, stress, optimize=True),
+        stress=elasticity[:, None] @ strain(at),
+    )
+
+
+def _operator(xyz: Float64, derivatives: Derivatives, points: Float64) -> Float64:
+    """(e, p, 6, 3 n) strains at natural points."""
+    gradient = derivatives(points)
+    return strain_operator(np.linalg.inv(jacobians(xyz, gradient)) @ gradient)
+
+
 def hybrid_solid(
     xyz: Float64,
     elasticity: Float64,
