@@ -1,7 +1,7 @@
 """PLOAD1 on CBEND: loads along the whole arc, per length of it.
 
 The components of the load in the axes of the section at both ends (r away from the
-centre, s along the arc, z) run linearly from one to the other: a load along a basic
+center, s along the arc, z) run linearly from one to the other: a load along a basic
 axis is so turned on its way, as in NX Nastran (pyNastran models, tst1d3; loads at the
 grid to 2e-5). Loads at the grids are the end forces of the clamped arc, reversed.
 

@@ -31,7 +31,7 @@ _RESULTS = (
     Result(
         kinds=("stress", "strain"),
         columns=SOLID_STRESS,
-        remark="centre, then corners (prefix c1_, c2_, ...)",
+        remark="center, then corners (prefix c1_, c2_, ...)",
     ),
 )
 
@@ -134,7 +134,7 @@ RECORDS = (
                 Result(
                     kinds=("stress", "strain"),
                     columns=RING_STRESS,
-                    remark="centre, then corners (prefix c1_, c2_, c3_)",
+                    remark="center, then corners (prefix c1_, c2_, c3_)",
                 ),
             ),
         ),

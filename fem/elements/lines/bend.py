@@ -29,7 +29,7 @@ import pandas as pd
 from fem.arrays import Bool, Float64, Int64
 from fem.deck.records.lines import BEND_FORCE
 from fem.deck.references import column, refer, table, where
-from fem.elements.block import CENTRE, Detail, Kind, Recovery
+from fem.elements.block import CENTER, Detail, Kind, Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.lines.line_geometry import congruence, skew
 from fem.elements.lines.orientation import orientation_vectors
@@ -132,7 +132,7 @@ class Bends(DenseBlock):
             id=self.id,
         )
 
-    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTRE) -> Float64 | None:
+    def of_nodal_forces(self, kind: Kind, detail: Detail = CENTER) -> Float64 | None:
         """(e, 12, 12) as `forces` from forces at the grids; nothing else is printed."""
         if kind != "force":
             return None

@@ -89,7 +89,7 @@ def hexa8_full(nodes: Float64, elasticity: Float64, *, order: int) -> SolidMatri
 
 def hexa8_lines(nodes: Float64, elasticity: Float64) -> SolidMatrices:
     """Eight nodes without bubble functions: shear of two directions between them."""
-    lines = ShearLines(axes=hexa_axes, centre=OUTPUT[:1], held=((0, 1), (1, 2), (2, 0)))
+    lines = ShearLines(axes=hexa_axes, center=OUTPUT[:1], held=((0, 1), (1, 2), (2, 0)))
     return line_shear_solid(
         nodes, elasticity, hex8_derivatives, gauss_hex(2), lines, OUTPUT
     )

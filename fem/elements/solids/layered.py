@@ -150,8 +150,8 @@ class LayeredSolid(DenseBlock):
         weight = rule.weights * np.linalg.det(jacobian)
         strain = strain_operator(np.linalg.inv(jacobian) @ slope)
         strain = stress_rotation(self.axes, strain=True)[:, None] @ strain
-        centre = jacobians(self._placed, hex8_derivatives(np.zeros((1, 3))))[:, 0]
-        turn = stress_transform(centre @ self.axes.swapaxes(1, 2))
+        center = jacobians(self._placed, hex8_derivatives(np.zeros((1, 3))))[:, 0]
+        turn = stress_transform(center @ self.axes.swapaxes(1, 2))
         inside = layered_modes(rule.points, ply, turn, self.stack)
         compliance = np.linalg.inv(self.stack.elasticity)[ply]
         flexible = np.einsum(
@@ -272,7 +272,7 @@ def stacked_along(jacobian: Float64, direction: Float64) -> Int64:
     """(e, 8) nodes so that the third natural direction is the one nearest to another.
 
     Args:
-        jacobian: (e, 3, 3) natural directions at the centre, as rows.
+        jacobian: (e, 3, 3) natural directions at the center, as rows.
         direction: (e, 3) of the stack.
     """
     unit = jacobian / np.linalg.norm(jacobian, axis=2, keepdims=True)

@@ -221,7 +221,7 @@ def penta6_full(nodes: Float64, elasticity: Float64, *, rule: Rule) -> SolidMatr
 
 def penta6_lines(nodes: Float64, elasticity: Float64) -> SolidMatrices:
     """Six nodes without bubble functions: shear with the height halfway up it."""
-    lines = ShearLines(axes=penta_axes, centre=OUTPUT[:1], held=((0, 1), (2,), (2,)))
+    lines = ShearLines(axes=penta_axes, center=OUTPUT[:1], held=((0, 1), (2,), (2,)))
     rule = product_penta(3, 2)
     return line_shear_solid(nodes, elasticity, penta6_derivatives, rule, lines, OUTPUT)
 

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
 _CORNERS = (0, 2, 4)
-_CENTRE = np.array([[1 / 3, 1 / 3]])
-_OUTPUT = np.concatenate([_CENTRE, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
+_CENTER = np.array([[1 / 3, 1 / 3]])
+_OUTPUT = np.concatenate([_CENTER, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]])
 _PLANE = 1e-6  # of the size: how far from the x-z plane a grid may lie
 
 
@@ -160,11 +160,11 @@ class Ring(DenseBlock):
         return moved[:, self.order].reshape(len(self.id), -1)
 
     def stresses(self) -> Recovery:
-        """At the centre and the corners, axes of the material."""
+        """At the center and the corners, axes of the material."""
         return self._recovery(strain=False)
 
     def strains(self) -> Recovery:
-        """At the centre and the corners, axes of the material."""
+        """At the center and the corners, axes of the material."""
         return self._recovery(strain=True)
 
     def _recovery(self, *, strain: bool) -> Recovery:

@@ -154,13 +154,13 @@ class ShearLines:
     """Where the shear strains of a linear element are taken, in its own axes.
 
     Attributes:
-        axes: element axes (e, 3, 3) from the Jacobian at the centre.
-        centre: (1, 3) natural point.
-        held: for xy, yz and zx the natural coordinates that are those of the centre.
+        axes: element axes (e, 3, 3) from the Jacobian at the center.
+        center: (1, 3) natural point.
+        held: for xy, yz and zx the natural coordinates that are those of the center.
     """
 
     axes: Callable[[Float64], Float64]
-    centre: Float64
+    center: Float64
     held: tuple[tuple[int, ...], ...]
 
 
@@ -177,14 +177,14 @@ def line_shear_solid(
     Shear of two directions is taken halfway along both: bending does not lock then.
     Other arguments as for `displacement_solid`.
     """
-    axes = lines.axes(jacobians(xyz, derivatives(lines.centre))[:, 0])
+    axes = lines.axes(jacobians(xyz, derivatives(lines.center))[:, 0])
     turn = stress_rotation(axes, strain=True)[:, None]
 
     def strain(points: Float64) -> Float64:
         own = turn @ _operator(xyz, derivatives, points)
         for component, held in zip((3, 4, 5), lines.held):
             moved = points.copy()
-            moved[:, held] = lines.centre[0, held]
+            moved[:, held] = lines.center[0, held]
             own[:, :, component] = (turn @ _operator(xyz, derivatives, moved))[
                 :, :, component
             ]

@@ -192,9 +192,9 @@ def test_two_rings_as_msc_prints_them():
     for row, pair in expected.items():
         np.testing.assert_allclose(u[row], pair, rtol=5e-7)
     stress = found["static/1/element_stress/CTRIAX6/value"].reshape(2, 4, 7)
-    centre = (-0.01862618, -0.09067669, -0.007052219, 0.01002714, -0.09067669)
-    centre += (0.04470737, 0.08037893)
-    np.testing.assert_allclose(stress[0, 0], centre, rtol=1e-6)
+    center = (-0.01862618, -0.09067669, -0.007052219, 0.01002714, -0.09067669)
+    center += (0.04470737, 0.08037893)
+    np.testing.assert_allclose(stress[0, 0], center, rtol=1e-6)
     corner = (-0.01728463, -0.12909100, -0.01793208, 0.00292081, -0.12909100)
     corner += (0.05721067, 0.11159878)
     np.testing.assert_allclose(stress[1, 3], corner, rtol=2e-6)
