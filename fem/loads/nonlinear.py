@@ -23,7 +23,7 @@ from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
 from fem.errors import InputError
 from fem.geometry.points import Points
-from fem.loads.dynamic import table_function
+from fem.loads.time_tables import table_function
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
