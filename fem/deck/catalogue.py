@@ -96,10 +96,17 @@ _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
             "AXIC CCONEAX FORCEAX PCONEAX RINGAX MOMAX SPCAX PRESAX TEMPAX CTRIAX "
             "PTRIAX CTRAX CQUADX PAXSYMH"
         ),
-        "of bodies of revolution CTRIAX6 is",
+        "of bodies of revolution only CTRIAX6 is",
     ),
     (("CPLSTN", "CPLSTS", "PPLANE"), "plane strain and plane stress solids are not"),
     (("PCOMPLS",), "PCOMPS describes layered solids"),
+    (
+        ("CSUPER",),
+        "superelements in databases of Nastran are not; their matrices are read from "
+        "the files of EXTSEOUT (DMIG, OUTPUT2, OUTPUT4)",
+    ),
+    (("PFASTT",), "fasteners by frequency and temperature are not; PFAST is"),
+    (("CBEAM3", "PBEAM3"), "three-grid beams are not; two CBEAM, or CBEND, are"),
 )
 
 

@@ -47,7 +47,7 @@ from fem.deck.superelements.subcases import split_subcases, with_chosen_sets
 from fem.deck.superelements.whole import check_sections, in_one_piece, with_modal
 from fem.deck.text.fields import Fields
 from fem.deck.text.lexer import Bulk, RawCard, read_cards
-from fem.deck.text.sections import Sections, split_sections
+from fem.deck.text.sections import Increment, Sections, split_sections
 from fem.deck.text.source import read_source
 from fem.deck.text.values import Malformed
 from fem.errors import InputError
@@ -129,6 +129,7 @@ def read_deck(
     if not parts and not problems:
         problems += check_sections(deck, parts)
     subcases = list(case.subcases)
+    of_parts: Mapping[int, Sequence[Mapping[str, pd.DataFrame]]] = {}
     if parts and not superelements and not problems:
         for number, part in parts.items():
             cards, subcases = with_chosen_sets(
@@ -141,7 +142,7 @@ def read_deck(
         except InputError as error:
             problems += error.problems
         deck, whole = in_one_piece(deck, parts)
-        parts = {}
+        parts, of_parts = {}, whole.increments
         problems += whole.problems
         notices += whole.notices
         if not problems:
@@ -151,7 +152,7 @@ def read_deck(
         components = tuple(main_superelements(deck.cards))
         deck = replace(deck, cards=_with_modal_points(deck.cards, components))
     deck = replace(deck, case_control=tuple(subcases))
-    increments = _increments(deck, sections, ignore, problems, notices)
+    increments = _increments(deck, sections, of_parts, ignore, problems, notices)
     if not problems:
         problems += check_combinations(replace(deck, increments=increments))
     if not problems:
@@ -376,32 +377,74 @@ def _superelements(
         deck = _deck(path, bulk, CaseControl(subcases=()), ignore, problems, notices)
         if number in copies and not problems:
             deck = mirrored(main, deck, number, problems)
+        own = {
+            m: _increment(deck, m, section, ignore, problems, notices)
+            for (part, m), section in sections.of_parts.items()
+            if part == number
+        }
         decks[number] = Deck(
-            path=path, cards=deck.cards, params=deck.params, notices=tuple(notices)
+            path=path,
+            cards=deck.cards,
+            params=deck.params,
+            notices=tuple(notices),
+            increments=own,
         )
+    problems += [
+        f"BEGIN SUPER={part} MASSID={m}: BEGIN SUPER={part} is not in the deck"
+        for part, m in sections.of_parts
+        if part not in decks
+    ]
     return decks
 
 
 def _increments(
     deck: Deck,
     sections: Sections,
+    of_parts: Mapping[int, Sequence[Mapping[str, pd.DataFrame]]],
     ignore: Collection[str],
     problems: list[str],
     notices: list[str],
 ) -> Mapping[int, Deck]:
-    """Decks of the BEGIN MASSID=n sections, on the points of the whole deck."""
-    decks = {}
-    for number, section in sections.increments.items():
-        bulk = read_cards(section.lines)
-        problems += bulk.problems
-        groups: dict[str, list[RawCard]] = {}
-        for card in set_aside(bulk.cards, number, notices):
-            groups.setdefault(card.name, []).append(card)
-        _set_aside(groups, {*ignore} & {*groups}, problems, notices)
-        tables = make_tables(groups, _external, problems, notices)
-        tables |= {name: deck.cards[name] for name in POINTS}
-        part = Deck(path=deck.path, cards=tables, params=deck.params)
+    """Decks of the BEGIN MASSID=n sections, on the points of the whole deck.
+
+    Those of superelements are among them.
+    """
+    decks = {
+        number: _increment(deck, number, section, ignore, problems, notices)
+        for number, section in sections.increments.items()
+    }
+    for number, tables in of_parts.items():
+        before = [decks[number].cards] if number in decks else []
+        cards = {
+            name: pd.concat([t[name] for t in (*before, *tables)], ignore_index=True)
+            for name in tables[0]
+            if name not in POINTS
+        }
+        cards |= {name: deck.cards[name] for name in POINTS}
+        decks[number] = Deck(path=deck.path, cards=cards, params=deck.params)
         if not problems:
-            problems += check(part, partial=True)
-        decks[number] = part
+            problems += check(decks[number], partial=True)
     return decks
+
+
+def _increment(
+    deck: Deck,
+    number: int,
+    section: Increment,
+    ignore: Collection[str],
+    problems: list[str],
+    notices: list[str],
+) -> Deck:
+    """The deck of one section of an increment, on the points of another."""
+    bulk = read_cards(section.lines)
+    problems += bulk.problems
+    groups: dict[str, list[RawCard]] = {}
+    for card in set_aside(bulk.cards, number, notices):
+        groups.setdefault(card.name, []).append(card)
+    _set_aside(groups, {*ignore} & {*groups}, problems, notices)
+    tables = make_tables(groups, _external, problems, notices)
+    tables |= {name: deck.cards[name] for name in POINTS}
+    part = Deck(path=deck.path, cards=tables, params=deck.params)
+    if not problems:
+        problems += check(part, partial=True)
+    return part

@@ -97,7 +97,7 @@ def merge_points(
             replaced[point] = other
     if problems:
         return cards
-    merged = {k: _with_points(k, table, replaced) for k, table in cards.items()}
+    merged = {k: with_points(k, table, replaced) for k, table in cards.items()}
     sets = merged["SET1"] = merged["SET1"].copy()
     sets["ids"] = [
         tuple(replaced.get(i, i) for i in ids) if number in lists else ids
@@ -116,7 +116,7 @@ def merge_points(
     return merged
 
 
-def _with_points(
+def with_points(
     name: str, table: pd.DataFrame, replaced: Mapping[int, int]
 ) -> pd.DataFrame:
     """A table in which other points stand for those that are replaced."""

@@ -11,7 +11,7 @@ system, and what refers to the basic frame refers to it: nothing else has to be 
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pandas as pd
@@ -24,7 +24,7 @@ from fem.deck.superelements.ids import (
     renamed,
     shift_notices,
 )
-from fem.deck.superelements.joining import join_points, merge_points
+from fem.deck.superelements.joining import join_points, merge_points, with_points
 from fem.deck.superelements.matrices import TYPES as EXTERNAL
 from fem.deck.superelements.monitors import with_monitors
 from fem.deck.superelements.placing import part_frame
@@ -49,12 +49,16 @@ _INERTIAL = ("GRAV", "RFORCE", "ACCEL1")
 
 @dataclass(frozen=True)
 class Whole:
-    """The model in one piece, what is wrong with it and what is remarkable."""
+    """The model in one piece, what is wrong with it and what is remarkable.
+
+    `increments`: tables of the mass increments of the parts, by increment.
+    """
 
     cards: Mapping[str, pd.DataFrame]
     problems: list[str]
     notices: list[str]
     components: tuple[Superelement, ...] = ()
+    increments: Mapping[int, list[Tables]] = field(default_factory=dict)
 
 
 def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
@@ -72,6 +76,7 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
     given = {0: _points(deck)}
     maps = {0: {}}
     grid_lists: set[int] = set()
+    increments: dict[int, list[Tables]] = {}
     for number, part in sorted(parts.items()):
         own = {k: v for k, v in part.cards.items() if k not in _OF_REDUCTION}
         frame = part_frame(deck, part, number, problems)
@@ -85,6 +90,9 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         basic = 1 + max(ids_of_kind(own, "frame"), default=0) + maps[number]["frame"]
         basic = max(basic, *(1 + i for t in tables for i in ids_of_kind(t, "frame")), 1)
         whole = renamed(own, maps[number], frame, basic)
+        for m, added in part.increments.items():
+            own = renamed(dict(added.cards), maps[number], frame, basic)
+            increments.setdefault(m, []).append(own)
         sets = [i for table in (*tables, whole) for i in table["SET1"]["sid"]]
         start = basic if frame is not None else 0
         whole, lists = with_monitors(whole, maps[number], start, number, sets)
@@ -105,7 +113,12 @@ def join(deck: Deck, parts: Mapping[int, Deck]) -> Whole:
         f"{len(parts)} superelements ({', '.join(map(str, sorted(parts)))}), joined at "
         f"{len(joined)} points: one model in statics, which is exact, and for landings"
     )
-    return Whole(cards, problems, notices, tuple(found))
+    if not problems:
+        points = {*cards["GRID"]["id"], *cards["SPOINT"]["id"]}
+        gone = {p: other for p, other in joined.items() if p not in points}
+        for tables in (t for own in increments.values() for t in own):
+            tables |= {name: with_points(name, t, gone) for name, t in tables.items()}
+    return Whole(cards, problems, notices, tuple(found), increments)
 
 
 def _component(

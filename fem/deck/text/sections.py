@@ -13,7 +13,7 @@ _CEND = re.compile(r"\s*CEND\b", re.I)
 _BEGIN = re.compile(r"\s*BEGIN\b\s*(?:BULK)?\s*(.*)$", re.I)
 # What a section is for, where it is not the main bulk data.
 _PART = re.compile(
-    r"(SUPER|MASSID)\s*=?\s*(\d{1,9})"
+    r"(SUPER|MASSID)\s*=?\s*(\d{1,9})(?:\s*,?\s*MASSID\s*=?\s*(\d{1,9}))?"
     r"(?:\s*,?\s*LABEL\s*=?\s*('[^']*'|[^\s$]+))?\s*(.*)$",
     re.I,
 )
@@ -22,7 +22,7 @@ _SOL = re.compile(r"\s*SOL\b", re.I)
 
 @dataclass
 class Increment:
-    """Bulk data of BEGIN MASSID = n with its LABEL."""
+    """Bulk data of BEGIN MASSID = n, or SUPER = s MASSID = n, with its LABEL."""
 
     label: str = ""
     lines: list[Line] = field(default_factory=list)
@@ -30,20 +30,24 @@ class Increment:
 
 @dataclass
 class Sections:
-    """Lines of a deck by section; `has_control`: there is more than bulk data."""
+    """Lines of a deck by section; `has_control`: there is more than bulk data.
+
+    `of_parts`: mass increments of superelements, by superelement and increment.
+    """
 
     executive: list[Line] = field(default_factory=list)
     case_control: list[Line] = field(default_factory=list)
     bulk: list[Line] = field(default_factory=list)
     superelements: dict[int, list[Line]] = field(default_factory=dict)
     increments: dict[int, Increment] = field(default_factory=dict)
+    of_parts: dict[tuple[int, int], Increment] = field(default_factory=dict)
     problems: list[str] = field(default_factory=list)
     has_control: bool = False
 
     @property
     def in_parts(self) -> bool:
         """There are sections after the main bulk data."""
-        return bool(self.superelements or self.increments)
+        return bool(self.superelements or self.increments or self.of_parts)
 
     def parts(self) -> Iterator[tuple[str, list[Line]]]:
         """How each section after the main bulk data begins, and its lines."""
@@ -52,6 +56,8 @@ class Sections:
         for number, increment in self.increments.items():
             label = f" LABEL='{increment.label}'" if increment.label else ""
             yield f"BEGIN MASSID={number}{label}", increment.lines
+        for (part, number), increment in self.of_parts.items():
+            yield f"BEGIN SUPER={part} MASSID={number}", increment.lines
 
 
 def split_sections(lines: Sequence[Line], shown: str) -> Sections:
@@ -107,11 +113,17 @@ def _split_bulk(lines: Sequence[Line], sections: Sections) -> None:
 def _section_of(text: str, line: Line, sections: Sections) -> list[Line]:
     """Where lines go after BEGIN with that text; what is not known is a problem."""
     part = _PART.match(text)
-    kind, number, label, rest = part.groups() if part else ("", "0", None, text)
+    none = "", "0", None, None, text
+    kind, number, massid, label, rest = part.groups() if part else none
     if rest.strip() and not rest.strip().startswith("$"):
         sections.problems.append(
             f"{line.file}:{line.number}: {line.text.strip()} is not supported"
         )
+    if kind.upper() == "SUPER" and massid and int(massid):
+        if int(number):
+            key = int(number), int(massid)
+            return sections.of_parts.setdefault(key, Increment()).lines
+        kind, number = "MASSID", massid
     if kind.upper() == "MASSID":
         if not int(number):
             sections.problems.append(

@@ -108,7 +108,7 @@ def test_symmetric_dmig_is_completed(read):
         ("MPC,1,1,1,0.", ["field A1"]),
         ("TSTEP,1,10,-1.", ["expected positive"]),
         ("FORCE,5,99,,1.,1.", ["FORCE 5: grid 99"]),
-        ("PLOAD1,5,77,FX,FR,0.,1.", ["PLOAD1 5: element (CBAR, CBEAM) 77"]),
+        ("PLOAD1,5,77,FX,FR,0.,1.", ["PLOAD1 5: element (CBAR, CBEAM, CBEND) 77"]),
         (
             "CORD2R,1,2,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\nCORD2R,2,1,0.,0.,0.,0.,0.,1.\n"
             ",1.,0.,0.",

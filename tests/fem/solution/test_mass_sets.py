@@ -140,7 +140,7 @@ def test_units_of_an_increment_are_the_decks(tmp_path):
         ),
         (
             {"increments": "BEGIN SUPER=2 MASSID=1\n", "case": "", "sets": ""},
-            "BEGIN SUPER=2 MASSID=1 is not supported",
+            "BEGIN SUPER=2 is not in the deck",
         ),
         (
             {"increments": "BEGIN MASSID=0\n", "case": "", "sets": ""},
@@ -173,3 +173,34 @@ def test_gravity_follows_the_mass_with_one_factor_of_the_stiffness(
     assert moved[0] == pytest.approx([0.04, 0.04], rel=1e-12)
     assert moved[1] == pytest.approx([0.16, 0.04], rel=1e-12)
     assert len(factors) == 1
+
+
+def test_increments_of_superelements_are_those_of_the_whole(tmp_path):
+    """Ids of the part are in use elsewhere: its increment follows it."""
+    part = """\
+BEGIN SUPER = 1
+GRID,1,,2.,0.,0.,,23456
+GRID,2,,1.,0.,0.,,23456
+CELAS2,11,1000.,1,1
+CROD,31,3,1,2
+PROD,3,4,0.5
+MAT1,4,1.+4,,.3
+CONM2,21,1,,4.
+BEGIN SUPER = 1 MASSID = 1
+CONM2,21,1,,12.
+CROD,41,3,1,2
+PROD,3,4,0.5
+MAT1,4,1.,,.3,8.
+"""
+    case = "METHOD = 5\nSUBCASE 1\n MASSSET = 20\n"
+    sets = "MASSSET,20,1.,1.,0,2.,1\nSEBULK,1,PRIMARY\n"
+    with h5py.File(
+        run_deck(fem.read_deck(deck(tmp_path, case, sets, part)), tmp_path / "parts.h5")
+    ) as file:
+        found = file["modes/frequency_hz"][()]
+    # The interior grid follows the boundary statically: 5/6 of its motion.
+    share = 5000.0 / 6000.0
+    k = np.array([1000.0, 1000.0 + 1000.0 * share])
+    m = np.array([4.0, 4.0 + 2 * 2.0 + share**2 * (4.0 + 2 * (12.0 + 2.0))])
+    expected = np.sqrt(k / m) / (2 * np.pi)
+    np.testing.assert_allclose(found, sorted(expected)[:2], rtol=1e-9)
