@@ -27,11 +27,11 @@ _AT_ROOT = {
     "CONTRIBUTING.md": "contributing.md",
     "CHANGELOG.md": "changes.md",
 }
-# The search is a dialog without a name; code would scroll, by the mouse alone;
-# links in text differ by color alone; comments in code are too pale; wide tables, which
-# the theme wraps when the page is there, scroll by the mouse alone; drawings made of
-# characters must not be wrapped as code is; words in pictures could not be read on
-# narrow screens.
+# The search is a dialog without a name, its switch a box without one; code would
+# scroll, by the mouse alone; links in text differ by color alone; comments in code are
+# too pale; wide tables, which the theme wraps when the page is there, scroll by the
+# mouse alone; drawings made of characters must not be wrapped as code is; words in
+# pictures could not be read on narrow screens.
 _PALE = ("comment", "operator", "punctuation", "generic", "variable")
 _STYLE = (
     "<style>.md-typeset :is(p,li,td) a{text-decoration:underline}"
@@ -52,6 +52,8 @@ _ACCESSIBLE = {
     "</body>": _WHEN_LOADED,
     'data-md-component="search" role="dialog"': 'data-md-component="search" '
     'role="dialog" aria-label="Search"',
+    'id="__search"': 'id="__search" aria-label="Search"',
+    'id="__drawer"': 'id="__drawer" aria-label="Navigation"',
     "</head>": _STYLE,
 }
 _CODE = re.compile(r"`[^`\n]+`")
