@@ -34,7 +34,8 @@ class Elasticity:
         mid, card: identification.
         plane: (3, 3) plane stress stiffness.
         shear: (2, 2) transverse shear stiffness; inf on the diagonal: rigid.
-        solid: (6, 6) three-dimensional stiffness.
+        solid: (6, 6) three-dimensional stiffness; None: a material of sheets, or one
+            that cannot change its volume.
         rho, ge: density and structural damping coefficient.
         strength: allowable stresses of a ply.
         alpha: strain per degree, (6,) of solids, (3,) of others; zero: none.
@@ -139,7 +140,15 @@ class ElasticityTable:
     def __getitem__(self, mid: int) -> Elasticity:
         if mid not in self._made:
             card, row = self._rows[mid]
-            self._made[mid] = _MAKERS[card](row)
+            with np.errstate(over="ignore"):
+                made = _MAKERS[card](row)
+            for stiffness in (made.plane, made.solid):
+                if stiffness is not None and not np.isfinite(stiffness).all():
+                    raise InputError(
+                        f"{where(card, row)}: the stiffness is beyond what can be "
+                        "computed with"
+                    )
+            self._made[mid] = made
         return self._made[mid]
 
 
@@ -152,17 +161,17 @@ def _mat1(row: pd.Series) -> Elasticity:
     given = [np.array([float(row[k])]) for k in ("e", "g", "nu")]
     e, g, nu = (float(v[0]) for v in complete(*given))
     check_moduli(pd.DataFrame([row]))
-    if not (-1.0 < nu < 0.5):
+    if not (-1.0 < nu < 1.0):
         raise InputError(
             f"{where('MAT1', row)}: Poisson's ratio {nu:g} (from E {e:g} and G {g:g} "
-            "where blank), expected between -1 and 0.5"
+            "where blank), expected between -1 and 1"
         )
     return Elasticity(
         mid=int(row["mid"]),
         card="MAT1",
         plane=plane_stress(e, nu),
         shear=np.diag([g, g]) if g > 0.0 else None,
-        solid=isotropic_solid(e, nu),
+        solid=isotropic_solid(e, nu) if nu < 0.5 else None,
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
         strength=_strength(row, "st sc st sc ss", (e, e, g)),
@@ -193,17 +202,22 @@ def _mat2(row: pd.Series) -> Elasticity:
 
 def _mat8(row: pd.Series) -> Elasticity:
     transverse = [_value(row, k) or np.inf for k in ("g1z", "g2z")]
+    e1, e2, nu12, g12 = (_value(row, k) for k in ("e1", "e2", "nu12", "g12"))
+    limit = np.sqrt(e1 / e2) if e1 > 0.0 and e2 > 0.0 else np.inf
+    if not abs(nu12) < limit:
+        raise InputError(
+            f"{where('MAT8', row)}: NU12 {nu12:g}, expected below {limit:g}, the root "
+            "of E1 / E2: beyond it the sheet has no positive stiffness"
+        )
     return Elasticity(
         mid=int(row["mid"]),
         card="MAT8",
-        plane=orthotropic_plane(*(_value(row, k) for k in ("e1", "e2", "nu12", "g12"))),
+        plane=orthotropic_plane(e1, e2, nu12, g12),
         shear=np.array([[transverse[0], 0.0], [0.0, transverse[1]]]),
         solid=None,
         rho=_value(row, "rho"),
         ge=_value(row, "ge"),
-        strength=_strength(
-            row, "xt xc yt yc s", tuple(_value(row, k) for k in ("e1", "e2", "g12"))
-        ),
+        strength=_strength(row, "xt xc yt yc s", (e1, e2, g12)),
         alpha=np.array([_value(row, "a1"), _value(row, "a2"), 0.0]),
         tref=float(row["tref"]),
     )

@@ -54,14 +54,15 @@ def check_moduli(mat: pd.DataFrame) -> None:
     """Refuse MAT1 cards (n rows) that are no elastic material.
 
     Raises:
-        InputError: E or G below zero; a given ν that is not between -1 and 0.5, or not
-            a number; all of them. (A ν that follows from E and G belongs to bars,
-            whose bending and torsion need not fit together.)
+        InputError: E or G below zero; a given ν that is not between -1 and 1, or not
+            a number; all of them. (Bars and plane stress know no other limit; solids
+            have theirs at 0.5. A ν that follows from E and G belongs to bars, whose
+            bending and torsion need not fit together.)
     """
     given = mat["nu"].to_numpy(float)
-    wrong_nu = ~np.isnan(given) & ~((given > -1.0) & (given < 0.5))
+    wrong_nu = ~np.isnan(given) & ~((given > -1.0) & (given < 1.0))
     problems = [
-        f"{where('MAT1', mat.iloc[i])}: NU {given[i]:g}, expected between -1 and 0.5"
+        f"{where('MAT1', mat.iloc[i])}: NU {given[i]:g}, expected between -1 and 1"
         for i in np.flatnonzero(wrong_nu)
     ]
     for name in ("e", "g"):

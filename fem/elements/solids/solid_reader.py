@@ -21,7 +21,7 @@ from fem.elements.solids.isoparametric import jacobians
 from fem.elements.solids.solid import Matrices, Shape, Solid
 from fem.errors import InputError
 from fem.geometry.points import Points
-from fem.properties.elasticity import ElasticityTable
+from fem.properties.elasticity import Elasticity, ElasticityTable
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -135,12 +135,24 @@ def _check_materials(
     for mid in np.unique(mids):
         user = where(shape.card, rows.iloc[int(np.argmax(mids == mid))])
         found = materials.problem(int(mid), ("MAT1", "MAT9"), user)
-        if found is None and np.linalg.cond(materials[int(mid)].solid) > 1e12:
-            found = f"{user}: material {mid} is singular, expected a regular matrix"
+        if found is None:
+            found = _unfit(materials[int(mid)], user)
         if found:
             problems.append(found)
     if problems:
         raise InputError(problems)
+
+
+def _unfit(material: Elasticity, user: str) -> str | None:
+    """Why a solid cannot be of this material; None: it can."""
+    if material.solid is None:
+        return (
+            f"{user}: Poisson's ratio of material {material.mid} is 0.5 or more, "
+            "expected below 0.5 in a solid"
+        )
+    if np.linalg.cond(material.solid) > 1e12:
+        return f"{user}: material {material.mid} is singular, expected a regular matrix"
+    return None
 
 
 def check_jacobian(rows: pd.DataFrame, shape: Shape, nodes: Float64) -> None:
