@@ -58,8 +58,7 @@ def support(
         moving: (g, g) mass and damping, where the solution has them.
 
     Raises:
-        InputError: constraints that contradict each other; no freedom is left although
-            AUTOSPC could constrain some.
+        InputError: constraints that contradict each other; nothing has stiffness.
     """
     elimination = eliminate(deck, points, spc=spc, mpc=mpc)
     elimination = elimination.with_fixed(np.setdiff1d(generalised, elimination.s))
@@ -73,12 +72,11 @@ def support(
         keep = ~np.isin(elimination.f, found.dof)
         elimination = elimination.with_fixed(found.dof)
         reduced = sp.csr_matrix(reduced[keep][:, keep])
-    # All of it constrained by the user is fine: enforced motion, loads on elements.
-    if not len(elimination.f) and len(found.dof):
+    # All that is stiff constrained by the user is fine: reactions to loads on elements.
+    if not len(elimination.f) and len(found.dof) and not np.any(stiffness.data):
         raise InputError(
-            f"no free freedom is left: {len(found.dof)} have no stiffness "
-            "(AUTOSPC), the others are constrained; expected elements that hold "
-            "the grids, with a modulus above 0"
+            f"{len(found.dof)} freedoms have no stiffness, the others are constrained; "
+            "expected elements that hold the grids, with a modulus above 0"
         )
     return Support(elimination=elimination, stiffness=reduced, autospc=found)
 

@@ -1,7 +1,7 @@
 """Case control: its commands read, what nothing here carries out refused."""
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from fem.deck.text.source import Line
 from fem.deck.text.values import Malformed, real
 from fem.errors import nearest
 
+_SKIP = re.compile(r"\s*SKIP[\s=]*(ON|OFF)\s*(?:\$|$)", re.I)
 _COMMAND = re.compile(r"\s*([A-Z0-9]+)\s*(\([^)]*\))?\s*[=,]?\s*(.*)$", re.S)
 
 
@@ -86,7 +87,7 @@ class _Reader:
             self.default = changed
 
     def read(self, lines: Iterable[Line]) -> CaseControl:
-        for statement, line in _statements(lines):
+        for statement, line in _statements(self.executed(lines)):
             match = _COMMAND.match(statement.upper())
             try:
                 if match is None:
@@ -103,6 +104,19 @@ class _Reader:
         self.report()
         self.result.subcases = tuple(self.subcases) or (self.default,)
         return self.result
+
+    def executed(self, lines: Iterable[Line]) -> Iterator[Line]:
+        """Lines that do not stand between SKIPON and SKIPOFF (or the end)."""
+        skipping: Line | None = None
+        for line in lines:
+            match = _SKIP.match(line.text)
+            if match is not None:
+                skipping = line if match[1].upper() == "ON" else None
+                if skipping is not None:
+                    place = f"{line.file}:{line.number}"
+                    self.result.notices.append(f"{place}: skipped from here to SKIPOFF")
+            elif skipping is None:
+                yield line
 
     def report(self) -> None:
         """One notice for each kind of what was passed over."""

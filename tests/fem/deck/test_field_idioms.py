@@ -1,14 +1,17 @@
 """Ways of writing that other programs' users have, and that Nastran takes."""
 
+import h5py
 import numpy as np
 import pytest
 
 from fem.cli import _status
+from fem.deck.reader import read_deck
 from fem.deck.text.values import Malformed, components, real
 from fem.elements.shells.shell_normals import deck_normals
 from fem.errors import InputError
 from fem.model.points import read_points
 from fem.model.structure import Structure
+from fem.solution import run_deck
 
 PLATES = (
     "GRID,1\nGRID,2,,1.\nGRID,3,,1.,1.\nGRID,4,,,1.\nGRID,5,,2.\nGRID,6,,2.,1.\n"
@@ -142,3 +145,25 @@ def test_sets_under_the_number_of_a_combination_are_combined(read):
     bulk = BAR_WITH_SETS + "SPC1,9,123456,1\n"
     structure = Structure.from_deck(read(bulk, case="SPC=10\nLOAD=1"))
     assert structure.stiffness.shape == (12, 12)
+
+
+def test_reactions_of_a_structure_held_at_all_its_stiffness(tmp_path):
+    """Rotations of solids without stiffness are no reason to refuse it."""
+    corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
+    corners += [(x, y, 1) for x, y, _ in corners]
+    grids = [f"GRID,{k},,{x}.,{y}.,{z}.\n" for k, (x, y, z) in enumerate(corners, 1)]
+    bulk = "CHEXA,1,1,1,2,3,4,5,6\n,7,8\nPSOLID,1,1\nMAT1,1,7.+10,,.3\n"
+    bulk += "SPC1,1,123,1,THRU,8\nPLOAD4,1,1,100.,,,,5,7\n"
+    path = tmp_path / "block.bdf"
+    case = "SOL 101\nCEND\nSPC=1\nLOAD=1\nBEGIN BULK\n"
+    path.write_text(case + "".join(grids) + bulk + "ENDDATA\n")
+    results = run_deck(read_deck(path), tmp_path / "block.h5")
+    with h5py.File(results) as file:
+        force = file["static/1/spc_force"][:, :3].sum(axis=0)
+    np.testing.assert_allclose(force, [0.0, 0.0, 100.0], atol=1e-9)
+
+
+def test_masses_alone_hold_nothing(read):
+    deck = read("GRID,1\nCONM2,1,1,,2.\nSPC1,1,123,1\n", alone=True, case="SPC=1")
+    with pytest.raises(InputError, match="expected elements that hold the grids"):
+        _ = Structure.from_deck(deck).stiffness

@@ -2,7 +2,9 @@
 
 import pytest
 
+from fem.deck.control.case_control import read_case_control
 from fem.deck.reader import read_deck
+from fem.deck.text.source import Line
 from fem.errors import InputError
 
 CASE = """\
@@ -195,3 +197,12 @@ def test_a_solution_in_dmap_of_the_deck_is_named(read):
     text = f"SOL MINE\nCOMPILE MINE\nCEND\nBEGIN BULK\n{_BULK}"
     with pytest.raises(InputError, match="SOL MINE: a program of the deck's own"):
         read(text, alone=True)
+
+
+@pytest.mark.parametrize("on", ["SKIPON", "skip on $ for now", "SKIP = ON"])
+def test_commands_after_skipon_are_not_carried_out(on):
+    text = f"LOAD=1\n{on}\nLOAD=7\nSUBCASE 4\nSKIPOFF\nSPC=3\n{on}\nSUBCASE 9\nLOAD=5\n"
+    lines = [Line(t, "a.bdf", k) for k, t in enumerate(text.splitlines(), start=1)]
+    found = read_case_control(lines)
+    assert [(case.id, case.load, case.spc) for case in found.subcases] == [(1, 1, 3)]
+    assert found.notices[0] == "a.bdf:2: skipped from here to SKIPOFF"
