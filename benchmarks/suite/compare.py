@@ -8,7 +8,18 @@ from benchmarks.suite.tables import Name, Table
 
 # Columns that are compared by no one: angles jump, margins are no results, and which
 # of the layers comes first is a matter of the file.
-_UNEVEN = ("angle", "margin", "MS_", "SMa", "fiber", "cos", "incline", "phi", "theta")
+_UNEVEN = (
+    "angle",
+    "margin",
+    "MS_",
+    "SMa",
+    "SMt",
+    "fiber",
+    "cos",
+    "incline",
+    "phi",
+    "theta",
+)
 
 
 @dataclass(frozen=True)

@@ -142,8 +142,8 @@ def _point_series(solution: Solution, case: Subcase) -> list[_Series]:
     series = []
     for name, (table, code, request) in _POINTS.items():
         result = solution.point(name)
-        if result is None:
-            continue
+        if result is None or not len(result.grid_id) + len(result.scalar_id):
+            continue  # a table without rows is none
         form = form_of(case, request, result.grids.dtype)
 
         def words_of(k: int, result: PointResult = result, form: int = form) -> Words:
