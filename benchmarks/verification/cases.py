@@ -73,6 +73,8 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         quadratic_solids.cubes_in_time,
         quadratic_solids.distorted_tetra10,
         quadratic_solids.layered_bricks,
+        quadratic_solids.rings_under_pressure,
+        quadratic_solids.brick_without_bubbles,
         cantilevers.cantilever_bar,
         cantilevers.cantilever_plate,
         commercial.reductions,

@@ -77,9 +77,7 @@ def _column(fields: Fields) -> list[_Term]:
 def _row(name: str, head: _Head, terms: list[_Term]) -> dict[str, Any]:
     if head.form == _SYMMETRIC:
         mirrored = [
-            (c, cc, r, rc, *value)
-            for r, rc, c, cc, *value in terms
-            if (r, rc) != (c, cc)
+            (c, cc, r, rc, a, b) for r, rc, c, cc, a, b in terms if (r, rc) != (c, cc)
         ]
         terms = terms + mirrored
     columns = list(zip(*terms)) or [()] * 6

@@ -464,3 +464,47 @@ def test_principal_values_are_eigenvalues():
     np.testing.assert_allclose(
         solid_principal(stress), np.linalg.eigvalsh(full)[:, ::-1], atol=1e-7
     )
+
+
+@pytest.mark.parametrize(
+    ("shape", "natural"), [(HEXA8, HEX_CORNERS), (PENTA6, PENTA_CORNERS)]
+)
+def test_linear_motions_without_bubble_functions(shape, natural):
+    """IN TWO: uniform strain is felt on any shape, and carried on skewed boxes."""
+    way = shape.integration["TWO", "REDUCED"]
+    matrix = isotropic_solid(E, NU)
+    gradient = np.array([[1.0, 0.3, -0.2], [0.1, -0.4, 0.5], [0.7, 0.2, 0.6]])
+    strain = [*np.diag(gradient), *(gradient + gradient.T)[[0, 1, 2], [1, 2, 0]]]
+    skew = natural @ np.array([[1.0, 0.2, 0.0], [0.1, 0.8, 0.3], [0.0, 0.2, 1.2]])
+    for nodes in (skew, skew + 0.1 * np.sin(np.arange(natural.size)).reshape(-1, 3)):
+        found = way(nodes[None], matrix[None])
+        moved = (nodes @ gradient.T).ravel()
+        stress = np.einsum("psn,n->ps", found.stress[0], moved)
+        np.testing.assert_allclose(stress, np.tile(matrix @ strain, (len(stress), 1)))
+        spin = np.cross([0.3, -0.2, 0.5], nodes).ravel()
+        assert np.abs(found.stiffness[0] @ spin).max() < 1e-9 * E
+    plain = shape.integration["TWO", "FULL"](skew[None], matrix[None]).stiffness[0]
+    moved = (skew @ gradient.T).ravel()
+    force = way(skew[None], matrix[None]).stiffness[0] @ moved
+    np.testing.assert_allclose(force, plain @ moved, atol=1e-9 * E)
+
+
+@pytest.mark.parametrize("count", [6, 15])
+def test_prisms_that_go_round_the_other_way_are_turned(count, tmp_path):
+    """The same element, from the grids of its card in another order; that is said."""
+    xyz = NATURAL[f"PENTA{count}"][1]
+    other = np.array([0, 2, 1, 3, 5, 4, 8, 7, 6, 9, 11, 10, 14, 13, 12])[:count]
+    decks = []
+    for order in (np.arange(count), other):
+        grids = [f"GRID,{k + 1},,{x},{y},{z}" for k, (x, y, z) in enumerate(xyz)]
+        nodes = [str(k + 1) for k in order]
+        lines = [",".join(nodes[:6]), *(",".join(nodes[k : k + 8]) for k in (6, 14))]
+        card = "\n,".join(line for line in lines if line)
+        path = tmp_path / f"{order[1]}.bdf"
+        bulk = "\n".join([*grids, f"CPENTA,1,1,{card}", "PSOLID,1,1", "MAT1,1,1.,,.3"])
+        path.write_text(f"SOL 101\nCEND\nBEGIN BULK\n{bulk}\nENDDATA\n")
+        decks.append(read_deck(path))
+    assert np.array_equal(decks[0].cards["CPENTA"]["nodes"][0], np.arange(count) + 1)
+    assert np.array_equal(decks[1].cards["CPENTA"]["nodes"][0], np.arange(count) + 1)
+    assert not decks[0].notices
+    assert "CPENTA 1: G1, G2, G3 go round away" in decks[1].notices[0]
