@@ -33,7 +33,7 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.conditions.cs23 import CS23
 from drake_landing.conditions.cs25 import CS25
 from drake_landing.conditions.paragraph import Paragraph
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.lift import STANDARD_GRAVITY, aircraft_mass_center
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
 from drake_landing.landing.trial import Trial, try_scenario

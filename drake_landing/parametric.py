@@ -22,7 +22,7 @@ from fem.arrays import Float64
 from fem.errors import InputError, nearest
 
 if TYPE_CHECKING:
-    from drake_landing.gears.data import LandingGear
+    from drake_landing.gears.landing_gear import LandingGear
     from drake_landing.places import Places
     from fem.model.structure import Structure
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from drake_landing.case.lift import Lift
 from drake_landing.case.scenario import Scenario
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.parametric import ParametricAircraft
 from fem.arrays import Float64
 from fem.deck.deck import Deck

@@ -13,7 +13,7 @@ from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.airframe.gear_places import place_remarks, shell_attachments
 from drake_landing.case.axes import gear_in_A
 from drake_landing.gears.bodies import mass_points, tip_below_root, wheel_centers
-from drake_landing.gears.data import LandingGear, LeveredGear
+from drake_landing.gears.landing_gear import LandingGear, LeveredGear
 from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
 from drake_landing.landing.lift import STANDARD_GRAVITY

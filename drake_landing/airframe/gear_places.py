@@ -10,7 +10,7 @@ import numpy.typing as npt
 from scipy.optimize import brentq
 
 from drake_landing.gears.bodies import mass_points, wheel_centers
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.initial_state import attitude
 from fem.model.structure import Structure
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from drake_landing.case.mass_cases import MassCase, Span, holds_id
 from drake_landing.gears.bodies import mass_points
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from fem.arrays import Float64
 from fem.deck.control.case_command_names import canonical
 from fem.deck.text.lexer import RawCard, read_cards, without_cards

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from drake_landing.airframe.drop import DropPulse, drop_pulse
 from drake_landing.airframe.oscillators import modal_accelerations
 from drake_landing.case.scenario import Scenario
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.gears.parameters import tire_parameters
 from drake_landing.landing.lift import STANDARD_GRAVITY

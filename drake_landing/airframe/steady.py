@@ -9,7 +9,7 @@ import numpy as np
 from drake_landing.airframe.mass_cases import loaded
 from drake_landing.case.steady import Steady
 from drake_landing.gears.bodies import mass_points
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.lift import STANDARD_GRAVITY
 from fem.arrays import Float64
 from fem.deck.extra_loads import loads_of_file

@@ -24,7 +24,7 @@ from drake_landing.case.reading import (
     read_text,
 )
 from drake_landing.case.schema import Case
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from fem.errors import InputError, nearest
 
 Data = dict[str, Any]

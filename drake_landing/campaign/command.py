@@ -21,7 +21,7 @@ from drake_landing.campaign.run import (
 from drake_landing.campaign.schema import Campaign
 from drake_landing.campaign.task import case_file
 from drake_landing.case.schema import Case
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.run import run_case
 from drake_landing.progress import reporter, told_when_interrupted

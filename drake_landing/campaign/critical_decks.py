@@ -47,7 +47,7 @@ def sizing_instants(
 def write_critical_decks(result: CampaignResult) -> list[Path]:
     """One SOL 101 deck per airframe in `static/`, and `static/instants.csv`."""
     from drake_landing.campaign.compare import read_table
-    from drake_landing.files import write_csv
+    from drake_landing.csv_tables import write_csv
 
     components = read_table(result.folder, "components")
     sections = read_table(result.folder, "sections")

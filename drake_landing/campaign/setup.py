@@ -33,7 +33,6 @@ from drake_landing.airframe.body import load_airframe
 from drake_landing.cache import Cache, content_key, source_key
 from drake_landing.campaign.basis import ScreeningBasis, screening_basis
 from drake_landing.case.schema import Case
-from drake_landing.files import versions
 from drake_landing.gears.bodies import mass_points
 from drake_landing.parts.cuts import BeamCuts
 from drake_landing.parts.monitors import Station, without_maps
@@ -43,6 +42,7 @@ from drake_landing.parts.stress_rows import Map, StressRows, stress_maps
 from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.full_response import parts_watch
 from drake_landing.progress import Reporter
+from drake_landing.versions import versions
 from fem.algebra.damping import Damping
 from fem.algebra.extension import CondensedProduct, Extension
 from fem.arrays import Float64, Int64

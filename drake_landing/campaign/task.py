@@ -25,7 +25,7 @@ from drake_landing.campaign.setup import LandingSetup, SetupFile, read_landing_s
 from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import parse_case
 from drake_landing.case.schema import Case
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import LandingHistory, gear_peaks

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from drake_landing.case.deck_frame import Axes
 from drake_landing.gears import leg_matrix
-from drake_landing.gears.data import LandingGear, RigidPart
+from drake_landing.gears.landing_gear import LandingGear, RigidPart
 from drake_landing.gears.legs import Leg
 
 Float64 = npt.NDArray[np.float64]

@@ -26,7 +26,7 @@ from drake_landing.case.parts import Parts
 from drake_landing.case.scenario import Scenario
 from drake_landing.case.section import Document
 from drake_landing.case.simulation import Simulation, Transient
-from drake_landing.gears.data import AnyGear
+from drake_landing.gears.landing_gear import AnyGear
 from fem.deck.text.source import include_reach
 
 # The name of a known set, or a list; tags are in parentheses, see `reading`.

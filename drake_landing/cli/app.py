@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 import typer
 
-from drake_landing.cli import cases, decks, kept, many_landings, running
+from drake_landing.cli import cases, decks, many_landings, past_runs, running
 
 app = typer.Typer(
     name="drake-landing",
@@ -47,8 +47,8 @@ for _command in (
     many_landings.study,
     many_landings.campaign,
     decks.reduce,
-    kept.show_run,
-    kept.cache,
+    past_runs.show_run,
+    past_runs.cache,
 ):
     app.command()(_command)
 

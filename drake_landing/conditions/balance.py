@@ -20,7 +20,7 @@ from drake_landing.conditions.build import OnGround
 from drake_landing.conditions.ground import BookCase
 from drake_landing.conditions.masses import acceleration_under
 from drake_landing.conditions.statics import resultant
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.parts.slices import balanced
 from fem.arrays import Float64, Int64
 from fem.model.structure import Structure

@@ -11,7 +11,7 @@ from drake_landing.conditions.ground import Gear, GroundAircraft, PoseName, Role
 from drake_landing.conditions.masses import RigidMass
 from drake_landing.conditions.peaks import Peak, Peaks, given_peak
 from drake_landing.conditions.poses import Deflections, GearStand, Posed
-from drake_landing.gears.data import Brake, LandingGear
+from drake_landing.gears.landing_gear import Brake, LandingGear
 from fem.arrays import Float64
 from fem.errors import InputError, nearest
 from systems.airframe.modal_body import ModalBody

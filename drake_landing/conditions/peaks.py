@@ -13,7 +13,7 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.case.simulation import Simulation
 from drake_landing.conditions.cases23 import sink_rate as sink_rate_23
 from drake_landing.conditions.poses import Deflections
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.parameters import shock_absorber_parameters, tire_parameters
 from drake_landing.landing.history import LandingHistory
 from drake_landing.landing.run import build_landing, fly

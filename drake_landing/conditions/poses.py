@@ -14,7 +14,7 @@ from pydrake.multibody.tree import PrismaticJoint
 from drake_landing.case.scenario import Scenario
 from drake_landing.conditions.ground import GearPlace
 from drake_landing.conditions.masses import RigidMass, together
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.initial_state import attitude, set_initial_state
 from drake_landing.landing.run import build_landing, start_state

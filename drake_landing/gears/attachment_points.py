@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.gears.bodies import GearBodies
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from systems.airframe.modal_body import ModalBody
 from systems.attachment.attachment_points import AttachmentPoint
 

@@ -35,7 +35,7 @@ from pydrake.multibody.tree import (
     UnitInertia,
 )
 
-from drake_landing.gears.data import (
+from drake_landing.gears.landing_gear import (
     BogieGear,
     LandingGear,
     LeveredGear,

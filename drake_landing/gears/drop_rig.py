@@ -22,7 +22,7 @@ from pydrake.systems.framework import Context, Diagram, DiagramBuilder, LeafSyst
 from pydrake.systems.primitives import LogVectorOutput, VectorLogSink
 
 from drake_landing.gears.bodies import AddLandingGear
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mounted import each_of
 from drake_landing.gears.systems import AddGearSystems
 from drake_landing.integrators import DEFAULT

@@ -25,7 +25,7 @@ from pydrake.multibody.tree import (
 )
 
 from drake_landing.gears import leg_matrix
-from drake_landing.gears.data import LandingGear, RigidPart
+from drake_landing.gears.landing_gear import LandingGear, RigidPart
 from drake_landing.gears.leg_beam import root_distance
 from drake_landing.gears.legs import Leg
 

@@ -25,7 +25,7 @@ from pydrake.multibody.tree import JacobianWrtVariable, PrismaticJoint, Revolute
 from pydrake.systems.framework import Context
 
 from drake_landing.gears.bodies import AddLandingGear, GearBodies, leg_axis
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.leg_beam import deflection_per_force
 from drake_landing.gears.leg_hinges import KINDS, hinge_axis
 from drake_landing.gears.leg_matrix import hinge_stiffness

@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import partial
 from typing import Any, overload
 
-from drake_landing.gears.parts import Brake, PitchDamper
+from drake_landing.gears.gear_parts import Brake, PitchDamper
 from drake_landing.gears.shock_absorber_data import ShockAbsorber
 from drake_landing.gears.tire_data import Tire
 from systems.gear.bogie_pitch import BogiePitchParameters

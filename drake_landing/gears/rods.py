@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from drake_landing.gears.bodies import cylinder_body, steering, strut_axis
-from drake_landing.gears.data import BogieGear, LandingGear, LeveredGear
+from drake_landing.gears.landing_gear import BogieGear, LandingGear, LeveredGear
 
 Float64 = npt.NDArray[np.float64]
 

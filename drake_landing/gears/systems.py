@@ -13,7 +13,7 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.systems.framework import DiagramBuilder
 
 from drake_landing.gears.bodies import GearBodies
-from drake_landing.gears.data import BogieGear, LandingGear
+from drake_landing.gears.landing_gear import BogieGear, LandingGear
 from drake_landing.gears.leg_laws import elastic_leg, hinge_columns
 from drake_landing.gears.mounted import (
     MountedShockAbsorber,

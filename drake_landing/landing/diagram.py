@@ -26,7 +26,7 @@ from drake_landing.gears.attachment_points import (
     require_shared_loads,
 )
 from drake_landing.gears.bodies import AddLandingGear, GearBodies, wheel_centers
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mounted import MountedShockAbsorber, MountedTire, each_of
 from drake_landing.gears.systems import AddGearSystems, GearSystems, connect
 from drake_landing.landing.lift import AddLift, Lift

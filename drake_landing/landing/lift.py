@@ -12,7 +12,7 @@ from pydrake.systems.framework import DiagramBuilder
 from pydrake.systems.primitives import Adder
 
 from drake_landing.gears.bodies import mass_points
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mass_center import mass_center
 from systems.airframe.distributed_load import DistributedLoad, trimmed_shares
 from systems.airframe.flexible_airframe import FlexibleAirframe

@@ -21,7 +21,7 @@ import numpy as np
 import pandas as pd
 from scipy.linalg import expm
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.handover import resample, time_grid
 from drake_landing.landing.history import POINT, LandingHistory
 from fem.arrays import Float64

@@ -17,7 +17,7 @@ from drake_landing.case.axes import gear_in_A
 from drake_landing.case.bushing import Bushing
 from drake_landing.case.scenario import Scenario
 from drake_landing.case.simulation import Simulation
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mounted import systems_of
 from drake_landing.integrators import IMPLICIT
 from drake_landing.landing.diagram import LandingDiagram

@@ -20,7 +20,7 @@ from drake_landing.case.runway import (
 )
 from drake_landing.case.scenario import Scenario
 from drake_landing.gears.bodies import wheel_centers
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.landing.diagram import LandingDiagram, MakeLandingDiagram
 from drake_landing.landing.equilibrium import (
     set_flight_equilibrium,

@@ -14,7 +14,7 @@ from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorC
 from pydrake.systems.framework import Context
 
 from drake_landing.case.scenario import Scenario
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.integrators import DEFAULT
 from drake_landing.landing.audit import Audit, Signals, audit, gear_loads
 from drake_landing.landing.diagram import LandingDiagram

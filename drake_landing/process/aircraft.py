@@ -22,7 +22,7 @@ from drake_landing.case.mass_cases import mass_case_of
 from drake_landing.case.scenario import Scenario
 from drake_landing.case.schema import Case
 from drake_landing.case.steady import Steady
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from drake_landing.reduced.legs import with_read_legs
 from drake_landing.reduced.model import ReducedModel

@@ -8,7 +8,7 @@ import pandas as pd
 from drake_landing.conditions.balance import Holds, RigidBalance
 from drake_landing.conditions.build import OnGround
 from drake_landing.conditions.ground import STATES, GearLoad
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.results.units import with_units
 from fem.arrays import Float64
 

@@ -31,7 +31,7 @@ from drake_landing.case.schema import Case
 from drake_landing.conditions.build import on_ground
 from drake_landing.conditions.peaks import landing_story
 from drake_landing.conditions.rules import condition_figures
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.leg_laws import leg_oscillators
 from drake_landing.landing.compilation import compilation_remark
 from drake_landing.landing.initial_state import attitude
@@ -40,7 +40,7 @@ from drake_landing.parts.inventory import Inventory
 from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import parts_looked_at
-from drake_landing.results.files import FILES
+from drake_landing.results.result_files import FILES
 from drake_landing.transient.step_error import (
     StepError,
     StepRefused,

@@ -13,13 +13,13 @@ from drake_landing.airframe.body import AirframeModel
 from drake_landing.airframe.damping import PARAMETERS
 from drake_landing.airframe.deck_units import in_deck_units
 from drake_landing.case.schema import Case
-from drake_landing.files import versions
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.transient.deck import (
     model_selections,
     transient_deck,
     write_transient_deck,
 )
+from drake_landing.versions import versions
 from fem.deck.reader import read_deck
 from fem.deck.units import in_si, units_of
 from fem.errors import InputError

@@ -32,7 +32,7 @@ from drake_landing.parts.stress import stress_point_notices
 from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.full_response import FullResponse, full_response
 from drake_landing.process.landing_deck import check_landing_deck, write_landing_deck
-from drake_landing.process.result_files import write_all, write_landing
+from drake_landing.process.run_folder import write_all, write_landing
 from drake_landing.progress import Reporter
 from drake_landing.results.comparison import RunLabel, comparison_table
 from drake_landing.results.late_extremes import late_extremes

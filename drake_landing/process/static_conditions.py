@@ -22,7 +22,7 @@ from drake_landing.conditions.labels import labels
 from drake_landing.conditions.load_pictures import load_pictures
 from drake_landing.conditions.peaks import landing_peaks, sink_rate
 from drake_landing.conditions.rules import RULES
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.process.aircraft import checked_aircraft
 from drake_landing.process.condition_answers import (
     Answers,

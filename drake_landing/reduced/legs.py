@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.legs import LegMatrix, ReducedLeg
 from drake_landing.reduced.imported import read_reduced
 from drake_landing.reduced.model import ReducedModel

@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.reduced.checks import ReductionChecks
 from drake_landing.reduced.model import ReducedModel
 from fem.files.atomic import write_aside

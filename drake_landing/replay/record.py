@@ -23,7 +23,7 @@ from pydrake.math import RigidTransform, RotationMatrix
 from drake_landing.airframe.skeleton import Skeleton
 from drake_landing.case.axes import gear_in_A, rotation_AB
 from drake_landing.gears.bodies import leg_lines
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.rods import rods
 from drake_landing.replay.scene import (
     Arrow,

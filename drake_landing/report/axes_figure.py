@@ -7,7 +7,7 @@ from matplotlib.axes import Axes
 
 from drake_landing.case.axes import axis_words
 from drake_landing.parts.cuts import BeamCuts
-from drake_landing.report.plots import (
+from drake_landing.report.svg_plots import (
     FAINT,
     INK,
     SERIES,

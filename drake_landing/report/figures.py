@@ -7,7 +7,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.landing.history import ATTACHMENT, UNITS, LandingHistory
-from drake_landing.report.plots import (
+from drake_landing.report.svg_plots import (
     INK,
     MULTIBODY,
     SERIES,

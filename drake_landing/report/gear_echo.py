@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 import pandas as pd
 from pydantic import BaseModel
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.report.page import Block, table_block
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from drake_landing.case.axes import deck_axes
-from drake_landing.files import versions
 from drake_landing.report import figures
 from drake_landing.report.acceleration_sections import (
     accelerations_section,
@@ -28,6 +27,7 @@ from drake_landing.results.reliability import reliability
 from drake_landing.results.summary import key_figures, story
 from drake_landing.results.verdict import verdict
 from drake_landing.transient.extremes import worst_elements
+from drake_landing.versions import versions
 
 if TYPE_CHECKING:
     from drake_landing.results.result import ProcessResult

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 
 from drake_landing.parts.cuts import NAMED, BeamCuts
 from drake_landing.parts.observers import PartsFound
-from drake_landing.report.plots import (
+from drake_landing.report.svg_plots import (
     INK,
     MULTIBODY,
     SERIES,

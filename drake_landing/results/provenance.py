@@ -20,8 +20,8 @@ import numpy as np
 
 from drake_landing.airframe.aircraft import Aircraft
 from drake_landing.case.schema import Case
-from drake_landing.files import versions
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
+from drake_landing.versions import versions
 from fem.algebra.linear_solver.pardiso import pardiso_is_available
 from fem.errors import InputError
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from drake_landing.case.axes import gear_in_A
 from drake_landing.gears.bodies import wheel_centers
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from fem.arrays import Float64
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.show.mesh import drawn_mesh
 from drake_landing.show.mesh_pictures import draw_mesh, draw_modes
 from drake_landing.show.modes import ShownModes, shown_modes

@@ -1,6 +1,6 @@
 """Landing gears for the synthetic aircraft: one nose gear, two main gears, twins."""
 
-from drake_landing.gears.data import LandingGear, read_gear
+from drake_landing.gears.landing_gear import LandingGear, read_gear
 from tests.systems.synthetic_body import LEFT_GEAR, NOSE_GEAR, RIGHT_GEAR
 
 _NOSE = {

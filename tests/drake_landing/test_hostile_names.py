@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from drake_landing.case.reading import load_case, parse_case
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.process import run as process
 from drake_landing.terminal import show
 from fem.errors import InputError

@@ -1,8 +1,8 @@
-"""Landing gears of the reference aircraft, in the schema of `gears/data.py`."""
+"""Landing gears of the reference aircraft, in the schema of `gears/landing_gear.py`."""
 
 from typing import Any
 
-from drake_landing.gears.data import TelescopicGear
+from drake_landing.gears.landing_gear import TelescopicGear
 from drake_landing.reference.d150.facts import facts
 from drake_landing.reference.d150.reference_axis import ATTACHMENTS
 

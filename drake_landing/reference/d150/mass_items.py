@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.reference.d150.facts import facts, table
 from drake_landing.reference.d150.geometry import (
     MIRROR,

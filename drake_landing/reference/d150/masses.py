@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mass_center import mass_center
 from drake_landing.reference.d150.facts import facts
 from drake_landing.reference.d150.geometry import Float64

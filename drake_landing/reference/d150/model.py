@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import pandas as pd
 
-from drake_landing.gears.data import LandingGear
+from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.reference.d150.facts import facts
 from drake_landing.reference.d150.geometry import Float64, Int64
 from fem.files.deck_writer import DeckText, Section, Value, case_set

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from drake_landing.reference.studies.plan import FULL_MODES, RunName
-from drake_landing.report.plots import (
+from drake_landing.report.svg_plots import (
     MULTIBODY,
     SERIES,
     TRANSIENT,

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 import pandas as pd
 
-from drake_landing.files import versions
 from drake_landing.reference.studies import figures
 from drake_landing.reference.studies.findings import (
     estimate_quality,
@@ -16,6 +15,7 @@ from drake_landing.reference.studies.findings import (
 )
 from drake_landing.reference.studies.plan import NAMES
 from drake_landing.report.page import Block, Page, Section, table_block, write_page
+from drake_landing.versions import versions
 
 if TYPE_CHECKING:
     from drake_landing.reference.studies.runs import Study, StudyRun

@@ -10,7 +10,7 @@ import pandas as pd
 
 from drake_landing.airframe.selection import Choice
 from drake_landing.cache import Cache
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.progress import Reporter, Silent
 from drake_landing.reference.studies.airframes import StudyAirframe, study_airframe
 from drake_landing.reference.studies.bases import bases_of, bases_table, spectrum_table

@@ -8,7 +8,7 @@ from pydrake.multibody.plant import MultibodyPlant
 from pydrake.multibody.tree import PrismaticJoint
 
 from drake_landing.gears.bodies import AddLandingGear, strut_axis
-from drake_landing.gears.data import LandingGear, TelescopicGear
+from drake_landing.gears.landing_gear import LandingGear, TelescopicGear
 from tests.drake_landing.landing_gears import aircraft_gears
 
 P_BA = np.array([17.6, 3.795, -1.05])

@@ -16,7 +16,7 @@ from drake_landing.gears.bodies import (
     strut_axis,
     wheel_centers,
 )
-from drake_landing.gears.data import TelescopicGear, read_gear
+from drake_landing.gears.landing_gear import TelescopicGear, read_gear
 from drake_landing.gears.systems import AddGearSystems
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.equilibrium import set_static_equilibrium

@@ -14,7 +14,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from drake_landing.case.reading import parse_case
-from drake_landing.gears.data import BogieGear, LeveredGear, TelescopicGear
+from drake_landing.gears.landing_gear import BogieGear, LeveredGear, TelescopicGear
 from fem.errors import InputError
 
 HERE = Path(__file__).parents[1]

@@ -8,8 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 from pydantic import ValidationError
 
-from drake_landing.gears.data import TelescopicGear, read_gear
 from drake_landing.gears.drop_rig import drop_rig
+from drake_landing.gears.landing_gear import TelescopicGear, read_gear
 from tests.drake_landing.landing_gears import aircraft_gears
 
 

@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from drake_landing.report.plots import panels, svg
+from drake_landing.report.svg_plots import panels, svg
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from drake_landing.report.page import (
     write_page,
 )
 from drake_landing.report.pdf import browser, write_pdf
-from drake_landing.report.plots import panels, svg
+from drake_landing.report.svg_plots import panels, svg
 from fem.errors import InputError
 
 _MEASURE = """<script>addEventListener("load", () => {

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.landing.history import (
     ATTACHMENT,
     STRUT,
@@ -17,8 +17,8 @@ from drake_landing.landing.history import (
 )
 from drake_landing.parts.observers import CaseFound, PartsFound
 from drake_landing.places import Places
-from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.provenance import Provenance
+from drake_landing.results.result_files import write_history_csv, write_results
 from fem.files.atomic import write_aside
 from systems.airframe.modal_body import ModalBody
 

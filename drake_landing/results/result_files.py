@@ -33,7 +33,7 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from drake_landing.files import versions, write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.landing.handover import AttachmentLoads
 from drake_landing.landing.history import LandingHistory
 from drake_landing.parts.cuts import COMPONENTS, NAMED
@@ -43,6 +43,7 @@ from drake_landing.results.units import (
     unit_of,
     with_units,
 )
+from drake_landing.versions import versions
 from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.escaping import group_name
 from fem.recovery.envelope import Envelope

@@ -1,21 +1,11 @@
-"""Files are written aside and then renamed; versions that figures depend on."""
+"""Tables as CSV files, written aside and then renamed."""
 
-import importlib.metadata
-import platform
 from pathlib import Path
 
 import pandas as pd
 
 from fem.files.atomic import write_aside
 from fem.files.escaping import cell
-
-_PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
-
-
-def versions() -> dict[str, str]:
-    """Of the program and what its figures depend on."""
-    found = {name: importlib.metadata.version(name) for name in _PACKAGES}
-    return {**found, "python": platform.python_version()}
 
 
 def write_csv(path: Path, table: pd.DataFrame, *, index: bool = False) -> None:

@@ -6,16 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 
 from drake_landing.case.reading import case_text
-from drake_landing.files import write_csv
+from drake_landing.csv_tables import write_csv
 from drake_landing.landing.history import LandingHistory
 from drake_landing.parts import tables
 from drake_landing.parts.buckling import with_margin
 from drake_landing.parts.observers import PartsWatch
 from drake_landing.results import units
-from drake_landing.results.files import write_history_csv, write_results
 from drake_landing.results.late_extremes import flagged
 from drake_landing.results.readme import write_readme
 from drake_landing.results.result import ProcessResult
+from drake_landing.results.result_files import write_history_csv, write_results
 from drake_landing.transient.extremes import worst_elements
 from fem.exit_status import is_system_failure
 

@@ -27,10 +27,10 @@ from pydantic import (
 
 from drake_landing.gears.fields import Data
 from drake_landing.gears.fields import Vector3 as Vector3
+from drake_landing.gears.gear_parts import Brake, FurtherAttachment, PitchDamper, Wheel
+from drake_landing.gears.gear_parts import RigidPart as RigidPart
 from drake_landing.gears.legs import Leg, require_over_stroke
 from drake_landing.gears.model_file import FIELDS, ModelFile, with_bodies
-from drake_landing.gears.parts import Brake, FurtherAttachment, PitchDamper, Wheel
-from drake_landing.gears.parts import RigidPart as RigidPart
 from drake_landing.gears.shock_absorber_data import ShockAbsorber
 from drake_landing.gears.tire_data import Tire
 
