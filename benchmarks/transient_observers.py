@@ -68,7 +68,7 @@ def others(since: tuple[float, float, float] | None = None) -> tuple:
 
 def bare_solve(structure: Structure, cases: int) -> tuple[float, float]:
     """Least processor and wall time of one solve of so many columns, s."""
-    system = TransientSystem.of(
+    system = TransientSystem.assemble(
         structure.stiffness,
         structure.mass,
         structure.damping,

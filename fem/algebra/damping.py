@@ -28,7 +28,7 @@ class Damping:
     other: sp.csr_matrix | None = None
 
     @classmethod
-    def of(
+    def from_matrix(
         cls,
         damping: "Damping | sp.spmatrix | sp.sparray | None",
         stiffness: sp.csr_matrix,

@@ -88,7 +88,7 @@ class CondensedProduct:
         whole = extension.rows(sp.csr_matrix(half.T)).T
         columns = np.unique(extension.dependent.indices)
         return cls(
-            split=SplitMatrix.of(sp.csr_matrix(whole)),
+            split=SplitMatrix.from_matrix(sp.csr_matrix(whole)),
             columns=columns,
             dependent=sp.csr_matrix(extension.dependent[:, columns]),
             free=shape_of(expand)[1],

@@ -124,7 +124,7 @@ def reduce_craig_bampton(
         SingularMatrixError, ValueError: see `reduce_guyan`.
     """
     k, m = sp.csr_matrix(stiffness, dtype=float), sp.csr_matrix(mass, dtype=float)
-    b = Damping.of(damping, k)
+    b = Damping.from_matrix(damping, k)
     n = len(k.indptr) - 1
     a = np.asarray(kept, dtype=np.intp)
     if len(np.unique(a)) != len(a) or np.any((a < 0) | (a >= n)):

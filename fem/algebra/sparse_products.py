@@ -41,7 +41,7 @@ class SplitMatrix:
     rest: sp.csr_matrix
 
     @classmethod
-    def of(cls, matrix: sp.spmatrix | sp.sparray) -> "SplitMatrix":
+    def from_matrix(cls, matrix: sp.spmatrix | sp.sparray) -> "SplitMatrix":
         """Split a square sparse matrix."""
         diagonal = matrix.diagonal()
         rest = sp.coo_matrix(matrix)

@@ -21,7 +21,7 @@ def damping_in_transients(deck: Deck, matrices: Matrices) -> Damping:
     other = matrices.damping
     if w4 > 0.0 and matrices.structural_damping.nnz:
         k4 = sp.csr_matrix(matrices.structural_damping / w4)
-        elements = Damping.of(k4, matrices.stiffness)
+        elements = Damping.from_matrix(k4, matrices.stiffness)
         stiff += elements.stiffness_factor
         if elements.other is not None:
             other = sp.csr_matrix(other + elements.other)

@@ -40,7 +40,7 @@ class ConstraintChoice:
     mpc: int
 
     @classmethod
-    def of(cls, subcase: Subcase) -> ConstraintChoice:
+    def from_subcase(cls, subcase: Subcase) -> ConstraintChoice:
         """Of a subcase."""
         return cls(*(getattr(subcase, item.name) for item in fields(cls)))
 
@@ -62,7 +62,10 @@ class FreeSet:
 
     def under(self, subcase: Subcase) -> FreeSet:
         """The free set under another subcase: itself, where that chooses alike."""
-        model, choice = self.model.under(subcase), ConstraintChoice.of(subcase)
+        model, choice = (
+            self.model.under(subcase),
+            ConstraintChoice.from_subcase(subcase),
+        )
         if choice != self.choice:
             return FreeSet(model, choice)
         if model is self.model:

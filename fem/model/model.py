@@ -45,7 +45,7 @@ class ModelChoice:
     massset: int
 
     @classmethod
-    def of(cls, subcase: Subcase) -> ModelChoice:
+    def from_subcase(cls, subcase: Subcase) -> ModelChoice:
         """Of a subcase."""
         return cls(*(getattr(subcase, item.name) for item in fields(cls)))
 
@@ -80,7 +80,7 @@ class Model:
 
     def under(self, subcase: Subcase) -> Model:
         """The model under another subcase: itself, where that chooses alike."""
-        choice = ModelChoice.of(subcase)
+        choice = ModelChoice.from_subcase(subcase)
         if choice == self.choice:
             return self
         if replace(choice, massset=0) != self.base.choice:

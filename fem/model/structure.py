@@ -60,8 +60,8 @@ class Structure:
     ) -> None:
         self.subcase = subcase if subcase is not None else deck.case_control[0]
         if free is None:
-            model = Model(deck, ModelChoice.of(self.subcase))
-            free = FreeSet(model, ConstraintChoice.of(self.subcase))
+            model = Model(deck, ModelChoice.from_subcase(self.subcase))
+            free = FreeSet(model, ConstraintChoice.from_subcase(self.subcase))
         self._free = free
 
     @classmethod
@@ -376,4 +376,4 @@ class Structure:
 
 def system_of(subcase: Subcase) -> tuple[ModelChoice, ConstraintChoice]:
     """What the matrices of a subcase depend on; equal for those that share them."""
-    return ModelChoice.of(subcase), ConstraintChoice.of(subcase)
+    return ModelChoice.from_subcase(subcase), ConstraintChoice.from_subcase(subcase)

@@ -101,7 +101,7 @@ def direct_transient(
         ValueError: arguments that do not fit each other.
     """
     scheme = scheme or NastranScheme()
-    system = TransientSystem.of(
+    system = TransientSystem.assemble(
         stiffness,
         mass,
         damping,

@@ -99,7 +99,7 @@ class TransientSystem:
     kind: Kind = "spd"
 
     @classmethod
-    def of(
+    def assemble(
         cls,
         stiffness: sp.spmatrix | sp.sparray,
         mass: sp.spmatrix | sp.sparray,
@@ -113,7 +113,7 @@ class TransientSystem:
     ) -> "TransientSystem":
         """Prepare the products."""
         k, m = sp.csr_matrix(stiffness, dtype=float), sp.csr_matrix(mass, dtype=float)
-        b = Damping.of(damping, k)
+        b = Damping.from_matrix(damping, k)
         n = len(k.indptr) - 1
         pattern = sp.csr_matrix((n, 0)) if load is None else sp.csr_matrix(load.pattern)
         for name, matrix in (("mass", m), ("damping", b.other), ("load", pattern)):
@@ -125,8 +125,8 @@ class TransientSystem:
             stiffness=k,
             mass=m,
             damping=b,
-            mass_product=mass_product or SplitMatrix.of(m),
-            other_product=None if b.other is None else SplitMatrix.of(b.other),
+            mass_product=mass_product or SplitMatrix.from_matrix(m),
+            other_product=None if b.other is None else SplitMatrix.from_matrix(b.other),
             pattern_rows=rows,
             pattern=pattern[rows],
             solver=solver,

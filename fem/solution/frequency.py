@@ -28,7 +28,6 @@ from fem.loads.harmonic import HarmonicExcitation, harmonic_excitation
 from fem.model.structure import Structure
 from fem.recovery.elements import element_tables
 from fem.recovery.harmonic import harmonic_table
-from fem.response.modal import residual_vectors
 from fem.solution.analysis_model import (
     AnalysisModel,
     analysis_model,
@@ -38,7 +37,13 @@ from fem.solution.analysis_model import (
 from fem.solution.enforced_motion import BaseMotion, base_motion, unseen_motion
 from fem.solution.frequency_dependence import FrequencyDependence
 from fem.solution.modal_damping import modal_ratios
-from fem.solution.modes import mode_table, modes_of, retained_modes
+from fem.solution.modes import (
+    is_modal,
+    mode_table,
+    modes_of,
+    retained_modes,
+    with_residual_vectors,
+)
 from fem.solution.options import Options
 from fem.solution.requests import (
     ELEMENT_RESULTS,
@@ -67,7 +72,7 @@ def solve_frequencies(
     for case in subcases:
         model = structure.with_subcase(case)
         check_free(model, 108)
-        basis = _basis(model, options) if _is_modal(model) else None
+        basis = _basis(model, options) if is_modal(model, "MFREQ", 111) else None
         hertz = frequencies(model.deck, case, None if basis is None else basis.elastic)
         excitation = harmonic_excitation(
             model.deck, model.points, case, hertz, model.loaded_mass
@@ -88,14 +93,9 @@ def solve_frequencies(
         options.console.say(_summary(model, hertz, u_g))
 
 
-def _is_modal(model: Structure) -> bool:
-    analysis = model.subcase.analysis.upper()
-    return analysis == "MFREQ" or (not analysis and model.deck.sol == 111)
-
-
 def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
     """Matrices of the analysis set with their damping."""
-    varying = FrequencyDependence.of(model.deck, model.points, model.blocks)
+    varying = FrequencyDependence.from_deck(model.deck, model.points, model.blocks)
     g = float(model.deck.number("G"))
     given, expand = model.matrices, reduced.expand
 
@@ -230,13 +230,7 @@ def _modal(
     if base is not None:
         base = base.carried(model, reduced, modes, solver=options.solver)
         pattern = sp.csr_matrix(sp.hstack([pattern, base.inertia(model, reduced)]))
-    asked = model.subcase.resvec or str(model.deck.param("RESVEC"))
-    if not asked.upper().startswith("NO"):
-        count = modes.count
-        modes = residual_vectors(
-            reduced.stiffness, reduced.mass, modes, pattern, solver=options.solver
-        )
-        options.console.say(f"{modes.count - count} residual vectors")
+    modes = with_residual_vectors(model, reduced, modes, pattern, options)
     ratio = modal_ratios(model.deck, model.subcase, modes.frequency_hz)
     hysteretic = int(model.deck.number("KDAMP")) < 0
     coupled = with_dynamic_input(model, in_modes(reduced, modes))
@@ -327,7 +321,7 @@ def _write(
         mpc = model.elimination.mpc_force(residual.T).T
         out.points("mpc_force", mpc, "MPCFORCES")
     detail = detail_of(model.deck, case)
-    varying = FrequencyDependence.of(model.deck, model.points, model.blocks)
+    varying = FrequencyDependence.from_deck(model.deck, model.points, model.blocks)
     for request, kind in ELEMENT_RESULTS:
         if kind == "failure":  # has no phase
             continue
@@ -353,7 +347,7 @@ def _residual(model: Structure, rate: Complex128, u_g: Complex128) -> Complex128
     force += 1j * (m.structural_damping @ u_g.T).T
     force += rate**2 * (m.mass @ u_g.T).T
     force += rate * (m.damping @ u_g.T).T
-    varying = FrequencyDependence.of(model.deck, model.points, model.blocks)
+    varying = FrequencyDependence.from_deck(model.deck, model.points, model.blocks)
     if varying is not None:
         for k, w in enumerate(rate[:, 0]):
             own, u = varying.at(w.imag / (2.0 * np.pi)), u_g[k]

@@ -78,7 +78,7 @@ class FrequencyDependence:
     cards: frozenset[str]
 
     @classmethod
-    def of(
+    def from_deck(
         cls, deck: "Deck", points: Points, blocks: Sequence[ElementBlock]
     ) -> "FrequencyDependence | None":
         """Of a model; None where nothing in it depends on frequency."""

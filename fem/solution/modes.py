@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pandas as pd
+import scipy.sparse as sp
 
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.algebra.modes import Modes, ModesError, normal_modes
@@ -16,6 +17,7 @@ from fem.files.hdf5 import ResultFile
 from fem.model.structure import Structure
 from fem.model.weight import rigid_modes
 from fem.recovery.grid_forces import strain_energy
+from fem.response.modal import residual_vectors
 from fem.solution.analysis_model import AnalysisModel, analysis_model
 from fem.solution.eigrl import request
 from fem.solution.holding import solve_or_hold
@@ -44,6 +46,30 @@ def solve_modes(
         name = "modes" if i == 0 else f"modes_{subcase.id}"
         _write(model, reduced, modes, results, name)
         options.console.say(mode_table(modes))
+
+
+def is_modal(model: Structure, analysis: str, sol: int) -> bool:
+    """Whether the subcase is solved in modes: its ANALYSIS, else the deck's SOL."""
+    own = model.subcase.analysis.upper()
+    return own == analysis or (not own and model.deck.sol == sol)
+
+
+def with_residual_vectors(
+    model: Structure,
+    reduced: AnalysisModel,
+    modes: Modes,
+    pattern: sp.csr_matrix,
+    options: Options,
+) -> Modes:
+    """The modes and, unless RESVEC says NO, residual vectors of loads (n, k)."""
+    wanted = model.subcase.resvec or str(model.deck.param("RESVEC"))
+    if wanted.upper().startswith("NO"):
+        return modes
+    more = residual_vectors(
+        reduced.stiffness, reduced.mass, modes, pattern, solver=options.solver
+    )
+    options.console.say(f"{more.count - modes.count} residual vectors")
+    return more
 
 
 def modes_of(model: Structure, options: Options) -> tuple[AnalysisModel, Modes]:

@@ -301,10 +301,10 @@ def test_observers_of_rows_see_the_rows_of_the_whole(scheme):
 
 def test_damping_matrix_that_is_a_multiple_of_stiffness_is_recognised():
     k, m, b, _ = random_system()
-    found = Damping.of(0.03 * k, k)
+    found = Damping.from_matrix(0.03 * k, k)
     assert found.other is None
     assert found.stiffness_factor == pytest.approx(0.03, rel=1e-12)
-    mixed = Damping.of(0.03 * k + b, k)
+    mixed = Damping.from_matrix(0.03 * k + b, k)
     np.testing.assert_allclose(
         mixed.matrix(k, m).toarray(), (0.03 * k + b).toarray(), rtol=1e-12
     )
