@@ -1,4 +1,4 @@
-"""GRAV, ACCEL1, RFORCE: loads that act through the mass matrix.
+"""GRAV, ACCEL, ACCEL1, RFORCE: loads that act through the mass matrix.
 
 The load is M times a field of accelerations in the displacement frames. M carries the
 scale of PARAM WTMASS already. The centrifugal field is no motion of a rigid body: what
@@ -13,7 +13,9 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
+from fem.deck.references import where
 from fem.elements.scalars.concentrated_mass import read_conm2
+from fem.errors import InputError
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -46,6 +48,28 @@ def _at_grids(points: Points, row: pd.Series) -> Float64:
     basic = np.zeros((len(points.grid_id), 3))
     basic[points.rows(row["grids"])] = _direction(points, row)
     return _field(points, basic)
+
+
+def _varying(points: Points, row: pd.Series) -> Float64:
+    """ACCEL: VAL times N, VAL by the place along an axis of a rectangular system.
+
+    Linear between the places LOC, beyond them that of the nearest (from memory of the
+    guide).
+
+    Raises:
+        InputError: the system is cylindrical or spherical.
+    """
+    frame = points.frames[row["cid"]]
+    if frame.kind != "R":
+        raise InputError(
+            f"{where('ACCEL', row)}: system {row['cid']} is not rectangular, expected "
+            "CORD1R or CORD2R"
+        )
+    axis = "XYZ".index(row["dir"])
+    place = (points.xyz - frame.origin) @ frame.axes[:, axis]
+    value = np.interp(place, row["locs"], row["vals"])
+    vector = frame.axes @ row[["n1", "n2", "n3"]].to_numpy(np.float64)
+    return _field(points, value[:, None] * vector)
 
 
 def _rotation(points: Points, row: pd.Series) -> Float64:
@@ -92,6 +116,7 @@ def spinning_masses(deck: "Deck", points: Points, rows: pd.DataFrame) -> Float64
 
 ACCELERATIONS: dict[str, Callable[[Points, pd.Series], Float64]] = {
     "GRAV": _gravity,
+    "ACCEL": _varying,
     "ACCEL1": _at_grids,
     "RFORCE": _rotation,
 }

@@ -83,8 +83,8 @@ def static_load(
         deck: the deck.
         points: its points.
         sid: a load set or a LOAD card.
-        mass_gg: (size, size) mass, PARAM WTMASS included; GRAV, ACCEL1 and RFORCE need
-            it.
+        mass_gg: (size, size) mass, PARAM WTMASS included; GRAV, ACCEL, ACCEL1 and
+            RFORCE need it.
 
     Raises:
         InputError: an undefined set or impossible loads.
@@ -108,7 +108,7 @@ def static_load(
                 np.add.at(total, dof, factor * values)
     if field.any():
         if mass_gg is None:
-            raise ValueError("GRAV, ACCEL1 and RFORCE need the mass matrix")
+            raise ValueError("GRAV, ACCEL, ACCEL1 and RFORCE need the mass matrix")
         total += sp.csr_matrix(mass_gg) @ field
     bad = np.flatnonzero(~np.isfinite(total))
     if len(bad):

@@ -129,7 +129,7 @@ class Model:
 
     @cached_property
     def loaded_mass(self) -> sp.csr_matrix:
-        """(g, g) mass on which GRAV, ACCEL1 and RFORCE act: not external ones."""
+        """(g, g) mass on which GRAV, ACCEL and RFORCE act: not external ones."""
         external = self.direct.external_mass
         mass = self.matrices.mass
         return mass if external is None else sp.csr_matrix(mass - external)

@@ -228,6 +228,20 @@ def pload4(f: Fields) -> Rows:
     return [{**row, "eids": np.array(eids, dtype=np.int64), "thru": ranges}]
 
 
+def accel(f: Fields) -> Rows:
+    """ACCEL: a vector, the axis along which it varies, places and factors."""
+    row: Row = {"sid": f.integer(1, "SID"), "cid": f.integer(2, "CID", 0)}
+    row.update({f"n{k}": f.real(2 + k, f"N{k}", 0.0) for k in (1, 2, 3)})
+    row["dir"] = f.word(6, "DIR")
+    if row["dir"] not in ("X", "Y", "Z"):
+        raise Malformed(f"field DIR: found '{row['dir']}', expected X, Y or Z")
+    pairs = [(f.real(k, "LOC"), f.real(k + 1, "VAL")) for k in f.groups(9, 2)]
+    if len({place for place, _ in pairs}) < max(2, len(pairs)):
+        raise Malformed("expected two or more different places LOC with their VAL")
+    places, factors = zip(*sorted(pairs))
+    return [{**row, "locs": np.array(places), "vals": np.array(factors)}]
+
+
 def accel1(f: Fields) -> Rows:
     row: Row = {"sid": f.integer(1, "SID"), "cid": f.integer(2, "CID", 0)}
     row["a"] = f.real(3, "A")

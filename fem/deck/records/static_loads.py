@@ -46,6 +46,13 @@ RECORDS = (
     ),
     _regular("GRAV", f"sid:i cid:i=0>CORD a:f {_VECTOR} -"),
     Card(
+        name="ACCEL",
+        group=GROUP,
+        read=lists.accel,
+        more="sid:i cid:i>CORD n1:f n2:f n3:f dir:s locs:* vals:*",
+        load=True,
+    ),
+    Card(
         name="ACCEL1",
         group=GROUP,
         read=lists.accel1,

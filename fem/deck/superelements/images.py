@@ -31,7 +31,13 @@ _REFLECTED = {
 }
 _NEAR_AXIS = 1e-5
 _PRESSURE = {"PLOAD": ("p",), "PLOAD2": ("p",), "PLOAD4": ("p1", "p2", "p3", "p4")}
-_INERTIAL = ("GRAV", "RFORCE", "ACCEL1", "LOAD")  # of the whole model, see `join`
+_INERTIAL = (
+    "GRAV",
+    "RFORCE",
+    "ACCEL",
+    "ACCEL1",
+    "LOAD",
+)  # of the whole model, see `join`
 
 
 def images(deck: Deck) -> dict[int, int]:

@@ -88,7 +88,7 @@ def with_matrices(
         names += kept
         notices.append(
             f"superelement {number}: {', '.join(kind for kind, _ in kept)} as {where} "
-            "has them; GRAV, ACCEL1 and RFORCE do not act on its mass"
+            "has them; GRAV, ACCEL, ACCEL1 and RFORCE do not act on its mass"
             f"{unused}"
         )
     if problems:

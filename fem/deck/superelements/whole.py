@@ -44,7 +44,7 @@ _OF_REDUCTION = (
     "EIGRL",
 )
 # They act on all masses of a model, there on those of their part.
-_INERTIAL = ("GRAV", "RFORCE", "ACCEL1")
+_INERTIAL = ("GRAV", "RFORCE", "ACCEL", "ACCEL1")
 
 
 @dataclass(frozen=True)

@@ -92,6 +92,35 @@ def test_accel1_acts_on_its_grids_only(loaded):
     assert not result.at(4).any()
 
 
+ALONG_Y = "CORD2R,8,,0.,1.,0.,0.,2.,0.\n,0.,1.,1.\n"  # z: basic y, y: basic x
+
+
+@pytest.mark.parametrize(
+    ("profile", "factor"),
+    [("0.,1.,4.,5.", 2.0), ("4.,20.,2.,10.", 10.0), ("-9.,3.,-4.,7.", 7.0)],
+)
+def test_accel_varies_along_an_axis_of_its_system(loaded, profile, factor):
+    """Linear between the places, beyond them that of the nearest."""
+    result = loaded(BASE + ALONG_Y + MASS + f"ACCEL,1,8,0.,3.,0.,Z\n,{profile}\n")
+    force = result.resultant()[:3]
+    np.testing.assert_allclose(force, [5.0 * 3.0 * factor, 0.0, 0.0], atol=1e-12)
+    np.testing.assert_allclose(result.at(2)[4], 1.5 * 3.0 * factor)
+
+
+@pytest.mark.parametrize(
+    ("card", "words"),
+    [
+        ("ACCEL,1,5,0.,3.,0.,Z\n,0.,1.,4.,5.", "system 5 is not rectangular"),
+        ("ACCEL,1,8,0.,3.,0.,W\n,0.,1.,4.,5.", "found 'W', expected X, Y or Z"),
+        ("ACCEL,1,8,0.,3.,0.,Z\n,0.,1.", "two or more different places"),
+        ("ACCEL,1,8,0.,3.,0.,Z\n,0.,1.,0.,2.", "two or more different places"),
+    ],
+)
+def test_accel_that_cannot_be_is_refused(loaded, card, words):
+    with pytest.raises(InputError, match=words):
+        loaded(BASE + ALONG_Y + MASS + f"{card}\n")
+
+
 def test_rforce_is_centrifugal_about_its_grid(loaded):
     bulk = BASE + "CONM2,2,4,,2.\nRFORCE,1,1,,.5,0.,0.,2.\n"
     spin = 2 * math.pi * 0.5 * 2

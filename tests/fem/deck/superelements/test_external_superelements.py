@@ -103,7 +103,7 @@ def test_gravity_does_not_act_on_their_mass_and_that_is_said(tmp_path, component
     )
     (tmp_path / "model.bdf").write_text(text)
     deck = read_deck(tmp_path / "model.bdf")
-    assert any("GRAV, ACCEL1 and RFORCE do not act" in text for text in deck.notices)
+    assert "GRAV, ACCEL, ACCEL1 and RFORCE do not act" in "".join(deck.notices)
     model = Structure(deck)
     tip = slice(18, 21)
     assert model.matrices.mass[tip, tip].toarray().any()
