@@ -19,12 +19,13 @@ class InputError(ValueError):
     """Bad input: each problem says where, what was found and what was expected.
 
     Args:
-        problems: one line of text per problem, in the order of the input.
+        problems: one line of text per problem, in the order of the input; what several
+            readers have found is told once.
     """
 
     def __init__(self, problems: str | Iterable[str]) -> None:
         self.problems: tuple[str, ...] = (
-            (problems,) if isinstance(problems, str) else tuple(problems)
+            (problems,) if isinstance(problems, str) else tuple(dict.fromkeys(problems))
         )
         shown = list(map(_printable, self.problems[:_MOST_SHOWN]))
         if more := len(self.problems) - len(shown):

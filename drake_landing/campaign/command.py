@@ -132,7 +132,7 @@ def _airframes(cases: Sequence[Case]) -> Iterator[str]:
             name = case.airframe.mass_case or aircraft.name
             yield f"  {'' if i else 'airframes':<12}{name}, {mass:,.0f} kg with gears"
     if problems:
-        raise InputError(dict.fromkeys(problems))
+        raise InputError(problems)
 
 
 def _short(value: object) -> str:

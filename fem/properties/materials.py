@@ -73,7 +73,7 @@ def check_moduli(mat: pd.DataFrame) -> None:
             for i in np.flatnonzero(values < 0.0)
         ]
     if problems:
-        raise InputError(dict.fromkeys(problems))
+        raise InputError(problems)
 
 
 def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:

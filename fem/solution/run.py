@@ -205,7 +205,7 @@ def _refuse_what_is_not_carried_out(
         if case.p2g and number not in _WITHOUT_REDUCTION | {103}
     ]
     if problems:
-        raise InputError(dict.fromkeys(problems))
+        raise InputError(problems)
 
 
 def _say_what_is_not_run(deck: Deck, options: Options) -> None:

@@ -102,3 +102,8 @@ def test_output_that_cannot_be_written_is_said():
     assert told.startswith("error: ")
     assert told.endswith("No space left on device\n")
     assert told.count("\n") == 1
+
+
+def test_what_two_readers_found_is_told_once() -> None:
+    error = InputError(["a.bdf:3: bad", "a.bdf:4: bad", "a.bdf:3: bad"])
+    assert error.problems == ("a.bdf:3: bad", "a.bdf:4: bad")
