@@ -98,7 +98,6 @@ _REASONS: tuple[tuple[tuple[str, ...], str], ...] = (
         ),
         "of bodies of revolution only CTRIAX6 is",
     ),
-    (("CPLSTN", "CPLSTS", "PPLANE"), "plane strain and plane stress solids are not"),
     (("PCOMPLS",), "PCOMPS describes layered solids"),
     (
         ("CSUPER",),
@@ -136,7 +135,6 @@ PROPERTY_OF: dict[str, str] = {
     "CQUADR": "PCOMPLS",
     "CRAC2D": "PRAC2D",
     "CRAC3D": "PRAC3D",
-    "CPLSTS4": "PPLANE",
     "CTRAX3": "PAXSYMH",
     "CDUM8": "PDUM8",
 }

@@ -149,6 +149,26 @@ def mat9(f: Fields) -> Rows:
     return [{**row, "rho": f.real(23, "RHO", 0.0), "ge": f.real(31, "GE", 0.0)}]
 
 
+def plane(f: Fields, count: int) -> Rows:
+    """Elements of plane strain and plane stress: grids, then THETA, which isotropic
+    materials do not need.
+
+    Raises:
+        Malformed: fields beyond, thicknesses at grids.
+    """
+    nodes = [f.integer(k + 3, f"G{k + 1}") for k in range(count)]
+    given = [k for k in range(count + 3, len(f)) if f.text(k)]
+    for k in given[:1]:
+        f.real(k, "THETA")
+    if len(given) > 1:
+        raise Malformed(
+            f"found {f.text(given[1])} after THETA, expected nothing: thicknesses at "
+            "grids are not supported"
+        )
+    row: Row = {"eid": f.integer(1, "EID"), "pid": f.integer(2, "PID")}
+    return [{**row, "nodes": np.array(nodes, np.int64)}]
+
+
 def mat11(f: Fields) -> Rows:
     """A solid of three planes of symmetry as a MAT9.
 

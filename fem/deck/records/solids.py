@@ -18,6 +18,8 @@ RING_STRESS = (
     *("radial", "azimuthal", "axial", "shear"),
     *("major", "max_shear", "von_mises"),
 )
+# Of slices; the shear is that in their plane.
+PLANE_STRESS = ("oxx", "oyy", "ozz", "shear", "von_mises")
 # In the middle of plies (PCOMPS), in their axes.
 LAYER_STRESS = ("o11", "o22", "o33", "t12", "t23", "t13", "von_mises")
 LAYER_STRAIN = ("e11", "e22", "e33", "e12", "e23", "e13", "von_mises")
@@ -138,6 +140,34 @@ RECORDS = (
                 ),
             ),
         ),
+    ),
+    *(
+        Card(
+            name=f"CPLST{kind}{count}",
+            group=_GROUP,
+            read=partial(lists.plane, count=count),
+            more="eid:i pid:i>PPLANE nodes:*>GRID",
+            ids="own",
+            element=Element(
+                reader="solids.plane_reader:read_" + f"cplst{kind}{count}".lower(),
+                results=(
+                    Result(
+                        kinds=("stress", "strain"),
+                        columns=PLANE_STRESS,
+                        remark="center; of 4 and 6 grids corners (prefix c1_, ...)",
+                    ),
+                ),
+            ),
+        )
+        for kind in "NS"
+        for count in (3, 4, 6, 8)
+    ),
+    Card(
+        name="PPLANE",
+        group=_GROUP,
+        fields="pid:i mid:i>MAT1 t:f=1.[L] nsm:f=0.[M/L2] foropt:i=0",
+        ids="solid property",
+        extent="area",
     ),
     # cordm -1: element, 0: basic
     Card(
