@@ -10,8 +10,8 @@ from pathlib import Path
 from fem.deck.catalogue import PASSED_OVER
 from fem.deck.control.case_command_names import QUANTITIES
 from fem.deck.control.param_names import DEFAULTS
-from fem.deck.reader import SUPPORTED
 from fem.deck.records import CARDS, Result, results
+from fem.deck.unsupported import SUPPORTED
 from fem.solution.options import WRITTEN
 
 BEGIN, END = "<!-- tables: python -m fem.overview -->", "<!-- end of tables -->"

@@ -1,28 +1,20 @@
-"""Nastran decks to `Deck`, and the one place that talks to pyNastran.
+"""Nastran decks to `Deck`.
 
 Text is cut into cards here, with file and line, so that messages say where; cards of
-irregular shape (_CLASSES below) are given to pyNastran's card classes one by one, so
-that one faulty card hides no other. All problems of a deck are reported at once.
+irregular shape are given to pyNastran's classes one by one (`pynastran_cards`), so that
+one faulty card hides no other. All problems of a deck are reported at once.
 """
 
-import warnings
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
-from pyNastran.bdf.bdf_interface.bdf_card import BDFCard
-from pyNastran.bdf.cards.bdf_tables import TABDMP1, TABLED1
-from pyNastran.bdf.cards.elements.rigid import RBE3
-from pyNastran.bdf.cards.properties.beam import PBEAM
-from pyNastran.bdf.cards.properties.bush import PBUSH
 
 from fem.arrays import Int64
 from fem.deck.card_tables import make_tables
-from fem.deck.catalogue import PROPERTY_OF, WITHOUT_EFFECT, reason
 from fem.deck.checks import STATIC_LOADS, check, check_selected
 from fem.deck.cleanup import clean, drop_unused_equations
 from fem.deck.control.case_control import CaseControl, read_case_control
@@ -33,7 +25,7 @@ from fem.deck.deck import Deck, Superelement
 from fem.deck.design_variables import set_initial_values
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
 from fem.deck.prisms import turn_prisms
-from fem.deck.records import CARDS
+from fem.deck.pynastran_cards import rows_from_pynastran
 from fem.deck.superelements.images import (
     check_images,
     images,
@@ -50,39 +42,8 @@ from fem.deck.text.lexer import Bulk, RawCard, read_cards
 from fem.deck.text.sections import Increment, Sections, split_sections
 from fem.deck.text.source import read_source
 from fem.deck.text.values import Malformed
+from fem.deck.unsupported import take_unsupported
 from fem.errors import InputError
-
-_CLASSES: dict[str, Any] = {
-    "PBEAM": PBEAM,
-    "PBUSH": PBUSH,
-    "RBE3": RBE3,
-    "TABLED1": TABLED1,
-    "TABDMP1": TABDMP1,
-}
-
-
-def _external(
-    card: RawCard, extract: Callable[[Any], list[dict[str, Any]]]
-) -> list[dict[str, Any]]:
-    """Rows of a card from pyNastran's object."""
-    fields = [field or None for field in card.fields]
-    while fields[-1] is None:
-        fields.pop()
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # it warns of what it raises, too
-            own = _CLASSES[card.name].add_card(BDFCard(fields, has_none=False))
-        return extract(own)
-    except Malformed:
-        raise
-    # pyNastran raises whatever its card classes meet in a faulty card.
-    except Exception as error:
-        text = " ".join(str(error).split("\n")[0].split())
-        raise Malformed(text or "is incomplete") from None
-
-
-_READABLE = frozenset(name for name, card in CARDS.items() if card.readable)
-SUPPORTED: tuple[str, ...] = tuple(sorted({*_READABLE, "PARAM"}))
 
 
 def read_deck(
@@ -260,8 +221,8 @@ def _deck(
     for card in bulk.cards:
         groups.setdefault(card.name, []).append(card)
     params = read_parameters(groups.pop("PARAM", []), case.params, problems, notices)
-    ignored = _set_aside(groups, ignore, problems, notices)
-    tables = make_tables(groups, _external, problems, notices)
+    ignored = take_unsupported(groups, ignore, problems, notices)
+    tables = make_tables(groups, rows_from_pynastran, problems, notices)
     deck = Deck(
         path=path,
         cards=tables,
@@ -276,80 +237,6 @@ def _deck(
             drop_unused_equations(tables, case.subcases, notices)
         problems += check(deck, partial=partial)
     return deck
-
-
-def _set_aside(
-    groups: dict[str, list[RawCard]],
-    ignore: Collection[str],
-    problems: list[str],
-    notices: list[str],
-) -> list[RawCard]:
-    """Take cards that are not supported out of `groups`.
-
-    Returns:
-        Those that the user wants ignored.
-    """
-    ignore = {*ignore, *(PROPERTY_OF[name] for name in ignore if name in PROPERTY_OF)}
-    absent = sorted(ignore - groups.keys() - set(PROPERTY_OF.values()) - {"CASE"})
-    if absent:
-        notices.append(f"to be ignored, but not in the deck: {', '.join(absent)}")
-    unused: list[str] = []
-    present = frozenset(groups)
-    ignored: list[RawCard] = []
-    unsupported: list[str] = []
-    for name in sorted(groups):
-        if name in ignore:
-            cards = groups.pop(name)
-            ignored += cards
-            notices.append(f"{_lines(name, cards)} ignored on request")
-        elif name not in _READABLE:
-            cards = groups.pop(name)
-            users = [card for card, prop in PROPERTY_OF.items() if prop == name]
-            if name in WITHOUT_EFFECT or (users and not present.intersection(users)):
-                unused.append(f"{name} ({len(cards)})")
-            else:
-                unsupported.append(name)
-                problems.append(
-                    f"{_lines(name, cards)} not supported{reason(name) or _hint(name)}"
-                )
-    if unused:
-        notices.append(f"cards without effect here: {', '.join(unused)}")
-    if unsupported:
-        problems.append(
-            f"to go on without them: --ignore {','.join(unsupported)} "
-            "of python -m fem, or airframe.ignore of a case"
-        )
-    return ignored
-
-
-def _hint(name: str) -> str:
-    """A card that the name may be a slip of: one letter, or two that changed places."""
-    near = [card for card in SUPPORTED if _is_slip(name, card)]
-    return f"; did you mean '{near[0]}'?" if near else ""
-
-
-def _is_slip(name: str, card: str) -> bool:
-    """Whether a name is a card's but for one letter more, less, wrong, or a swap.
-
-    Digits are no slips: CBUSH2D is not a misspelt CBUSH.
-    """
-    if sorted(name) == sorted(card) and len(name) > 3:
-        return sum(a != b for a, b in zip(name, card)) == 2
-    short, long = sorted((name, card), key=len)
-    if len(long) < 4 or len(long) - len(short) > 1:
-        return False
-    at = next((i for i, (a, b) in enumerate(zip(short, long)) if a != b), len(short))
-    same = len(short) == len(long)
-    letters = {long[at : at + 1], short[at : at + 1] if same else ""}
-    return short[at + same :] == long[at + 1 :] and "".join(letters).isalpha()
-
-
-def _lines(name: str, cards: Sequence[RawCard]) -> str:
-    """Where the cards of one name are: "CBEND (2 cards; a.bdf:12, a.bdf:13)"."""
-    places = ", ".join(card.place for card in cards[:5])
-    more = ", ..." if len(cards) > 5 else ""
-    plural = "cards" if len(cards) > 1 else "card"
-    return f"{name} ({len(cards)} {plural}; {places}{more})"
 
 
 def _with_modal_points(
@@ -441,8 +328,8 @@ def _increment(
     groups: dict[str, list[RawCard]] = {}
     for card in set_aside(bulk.cards, number, notices):
         groups.setdefault(card.name, []).append(card)
-    _set_aside(groups, {*ignore} & {*groups}, problems, notices)
-    tables = make_tables(groups, _external, problems, notices)
+    take_unsupported(groups, {*ignore} & {*groups}, problems, notices)
+    tables = make_tables(groups, rows_from_pynastran, problems, notices)
     tables |= {name: deck.cards[name] for name in POINTS}
     part = Deck(path=deck.path, cards=tables, params=deck.params)
     if not problems:

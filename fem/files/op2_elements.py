@@ -38,7 +38,7 @@ class Elements:
 
     @property
     def points(self) -> int:
-        """Points with results in an element: the centre, or with corners."""
+        """Points with results in an element: the center, or with corners."""
         return 1 + len({c.split("_")[0] for c in self.columns if _is_corner(c)})
 
 
@@ -130,7 +130,7 @@ def _beam(op2: Op2, e: Elements) -> Layout:
 
 
 def _plate(op2: Op2, e: Elements) -> Layout:
-    """The centre, or the centre and the corners with their grids."""
+    """The center, or the center and the corners with their grids."""
     points, cells = e.points, [device(e)]
     if points == 1:
         return Layout(type=op2.type, cells=[*cells, *e.columns])
@@ -145,7 +145,7 @@ def _plate(op2: Op2, e: Elements) -> Layout:
 
 
 def _solid(op2: Op2, e: Elements) -> Layout:
-    """Centre and corners: stresses, principal ones, mean pressure, von Mises."""
+    """Center and corners: stresses, principal ones, mean pressure, von Mises."""
     points = e.points
     grid_word = np.full(1, int.from_bytes(b"GRID", "little"))
     cells: list[Cell] = [device(e), np.zeros(1, np.int64), grid_word]
@@ -162,7 +162,7 @@ def _solid(op2: Op2, e: Elements) -> Layout:
 
 
 def _ring(op2: Op2, e: Elements) -> Layout:
-    """Centre and corners with their grids."""
+    """Center and corners with their grids."""
     cells: list[Cell] = [device(e)]
     for k in range(e.points):
         grid = np.zeros(1, np.int64) if k == 0 else e.grids[:, k - 1]

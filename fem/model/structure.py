@@ -149,7 +149,7 @@ class Structure:
 
     @property
     def rigid_mass(self) -> Weight:
-        """Mass, centre of gravity and inertia that the dynamics have, see `Model`."""
+        """Mass, center of gravity and inertia that the dynamics have, see `Model`."""
         return self.model.rigid_mass
 
     @property
@@ -241,7 +241,7 @@ class Structure:
 
     @property
     def rigid_body(self) -> Float64:
-        """(f, 6) motions as a rigid body about the centre of gravity, see `FreeSet`."""
+        """(f, 6) motions as a rigid body about the center of gravity, see `FreeSet`."""
         return self._free.rigid_body
 
     # -- between the sets -------------------------------------------------------------

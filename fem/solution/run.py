@@ -282,7 +282,7 @@ def _introduce(structure: Structure, options: Options) -> None:
     x, y, z = _without_rounding(weight.center, np.abs(points.xyz).max(initial=0.0))
     i = _without_rounding(weight.inertia, np.abs(weight.inertia).max(initial=0.0))
     console.say(
-        f"mass {weight.total:.7g}, centre of gravity {x:.7g} {y:.7g} {z:.7g}, inertia "
+        f"mass {weight.total:.7g}, center of gravity {x:.7g} {y:.7g} {z:.7g}, inertia "
         f"{i[0, 0]:.6g} {i[1, 1]:.6g} {i[2, 2]:.6g}, products {i[0, 1]:.5g} "
         f"{i[0, 2]:.5g} {i[1, 2]:.5g}"
     )

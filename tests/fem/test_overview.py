@@ -6,7 +6,7 @@ import h5py
 import pytest
 
 import fem
-from fem.deck.reader import SUPPORTED
+from fem.deck.unsupported import SUPPORTED
 from fem.overview import groups, with_section
 from fem.solution import run_deck
 

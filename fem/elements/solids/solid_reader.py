@@ -181,7 +181,7 @@ def material_axes(
     """(e, 3, 3) rows are the axes of CORDM: 0 basic, -1 the element, else a system.
 
     The element axes are the orthogonal ones closest to the natural directions at the
-    centre, or to the sides of a prism (`element_axes.py`); a tetrahedron has x along
+    center, or to the sides of a prism (`element_axes.py`); a tetrahedron has x along
     G1-G2 and z normal to G1-G2-G3.
     """
     cordm = properties["cordm"].to_numpy(np.int64)
@@ -191,8 +191,8 @@ def material_axes(
         axes[own] = _element_axes(nodes[own], shape)
     given = cordm > 0
     if given.any():
-        centre = nodes[given].mean(axis=1)
-        axes[given] = points.frames.triads(cordm[given], centre).transpose(0, 2, 1)
+        center = nodes[given].mean(axis=1)
+        axes[given] = points.frames.triads(cordm[given], center).transpose(0, 2, 1)
     return axes
 
 
@@ -202,6 +202,6 @@ def _element_axes(nodes: Float64, shape: Shape) -> Float64:
         z = np.cross(x, nodes[:, 2] - nodes[:, 0])
         triad = np.stack([x, np.cross(z, x), z], axis=1)
         return triad / np.linalg.norm(triad, axis=2, keepdims=True)
-    centre = shape.checked[:1]
-    natural = jacobians(nodes, shape.derivatives(centre))[:, 0]
+    center = shape.checked[:1]
+    natural = jacobians(nodes, shape.derivatives(center))[:, 0]
     return penta_axes(natural) if shape.card == "CPENTA" else hexa_axes(natural)
