@@ -139,7 +139,7 @@ def _references(tables: Tables) -> list[str]:
 
 def _with_freedoms(table: pd.DataFrame) -> pd.DataFrame:
     """DMIG whose columns are freedoms: those of form 9 have numbers."""
-    return table[table["form"] != 9].reset_index(drop=True)
+    return pd.DataFrame(table[table["form"] != 9].reset_index(drop=True))
 
 
 def _used_only(tables: Tables, name: str) -> Tables:
