@@ -46,18 +46,15 @@ class Surface:
         nodes: (n, 2) natural coordinates, the corners first.
         powers: of the interpolation of displacements.
         linear: of that of the thickness, from the corners.
-        points, weights: (q, 2), (q,) rule of integration.
-        strains: per component 11, 22, 12 samples (s, 2) and powers.
-        edges: (m, 2) points where shear is taken, towards: (m, 2) natural directions.
-        sides: (m,) edge that each lies on, -1: none.
-        means: (s, m) samples of shear from these.
-        shears: powers of both components of shear, and turning: powers m of fields
-        (s m, -r m); together as many as samples.
-        bubble: powers of rotations that vanish on the edges, with coefficients.
-        stress: (g, 2) points of which printed results are extrapolated by `printed`.
+        points, weights: (q, 2), (q,) rule of integration of masses.
+        rule, shares: (r, 2), (r,) that of the stiffness.
+        reduced: (g, 2) points between which strains are filtered, none for triangles.
+        printed: powers of shear fields and of results over the element.
+        shears: (k, s, 2) points where shear is taken: of both natural directions, or
+            of the direction across each side; as many as `printed` has.
         even: element axes lie evenly about both tangents.
-        whole: (w, 2) nodes of the interpolation where mid-sides are left out, and
-        follow: (w, n) how all of these follow those that are there; None: all are.
+        whole: nodes of the interpolation with the mid-sides that are left out, and
+            follow: (w, n) how all of these follow those that are there; None: all are.
         straight: edges without their mid-side.
     """
 
@@ -66,26 +63,18 @@ class Surface:
     linear: Powers
     points: Float64
     weights: Float64
-    strains: tuple[tuple[Float64, Powers], ...]
-    edges: Float64
-    towards: Float64
-    sides: tuple[int, ...]
-    means: Float64
-    shears: tuple[Powers, Powers]
-    stress: Float64
+    rule: Float64
+    shares: Float64
+    reduced: Float64
     printed: Powers
+    shears: Float64
     even: bool
-    turning: Powers = ()
-    bubble: tuple[tuple[float, tuple[int, int]], ...] = ()
     whole: Float64 | None = None
     follow: Float64 | None = None
     straight: frozenset[int] = frozenset()
 
     def without(self, present: Sequence[bool]) -> "Surface":
         """The surface without some of its mid-sides: their edges stay straight.
-
-        Where rotations turn linearly along an edge that cannot bend only the mean of
-        its shear is meant, else it locks (Bathe and Dvorkin's tying at the middle).
 
         Args:
             present: for each mid-side, whether it is there.
@@ -101,27 +90,18 @@ class Surface:
             nodes=self.nodes[kept],
             whole=self.nodes,
             follow=follow[:, kept],
-            **self._without_bubble,
             straight=frozenset(np.flatnonzero(~np.asarray(present, bool)).tolist()),
         )
 
-    @property
-    def _without_bubble(self) -> dict[str, object]:
-        """Samples along the edges only: the mean inside is met by the bubble alone.
-
-        A triangle with fewer rotations on its edges would lock with both.
-        """
-        if not self.bubble:
-            return {}
-        kept = np.flatnonzero(np.asarray(self.sides) >= 0)
-        return {
-            "edges": self.edges[kept],
-            "towards": self.towards[kept],
-            "sides": tuple(np.asarray(self.sides)[kept].tolist()),
-            "means": np.eye(len(kept)),
-            "turning": (),
-            "bubble": (),
-        }
+    @cached_property
+    def complete(self) -> "Surface":
+        """That of the strains: all mid-sides, and the middle of a quadrilateral."""
+        nodes = self.nodes if self.whole is None else self.whole
+        powers = self.powers
+        if self.even:
+            nodes, powers = np.vstack([nodes, np.zeros((1, 2))]), (*powers, (2, 2))
+        own = replace(self, nodes=nodes, powers=powers, whole=None, follow=None)
+        return replace(own, straight=frozenset())
 
     @property
     def corners(self) -> int:
@@ -153,40 +133,11 @@ class Surface:
         """(q, c) linear shape functions of the corners."""
         return fitted(self.linear, self.nodes[: self.corners], p)
 
-    def bubble_values(self, p: Float64) -> Float64:
-        """(q,) the rotation inside, one at the middle."""
-        factors, powers = zip(*self.bubble)
-        return monomials(powers, p) @ np.array(factors)
-
-    def bubble_slopes(self, p: Float64) -> Float64:
-        """(q, 2) derivatives of `bubble_values`."""
-        factors, powers = zip(*self.bubble)
-        return _slopes(powers, p) @ np.array(factors)
-
-    def projection(self, p: Float64) -> Float64:
-        """(q, k) values at points of the nearest linear field to values at `points`."""
-        own = monomials(self.linear, self.points)
-        weighted = own.T * self.weights
-        return monomials(self.linear, p) @ np.linalg.solve(weighted @ own, weighted)
-
-    def _shear_fields(self, p: Float64) -> Float64:
-        """(q, 2, s) fields of covariant shear."""
-        first, second = (monomials(own, p) for own in self.shears)
-        turn = monomials(self.turning, p) if self.turning else np.zeros((len(p), 0))
-        rows = [
-            [first, np.zeros_like(second), p[:, 1:] * turn],
-            [np.zeros_like(first), second, -p[:, :1] * turn],
-        ]
-        return np.stack([np.concatenate(row, axis=1) for row in rows], axis=1)
-
-    def shear_fit(self, p: Float64) -> Float64:
-        """(q, 2, s) covariant shear from its samples along the edges and inside."""
-        there = np.einsum("qk,qks->qs", self.towards, self._shear_fields(self.edges))
-        same = np.equal.outer(self.sides, self.sides)
-        whole = ~np.isin(self.sides, list(self.straight))
-        same[whole] = np.eye(len(same))[whole]
-        samples = self.means @ (same / same.sum(axis=1, keepdims=True))
-        return self._shear_fields(p) @ np.linalg.inv(self.means @ there) @ samples
+    def spread(self, p: Float64) -> Float64:
+        """(p, r) values at points of the nearest `printed` field to those of `rule`."""
+        return monomials(self.printed, p) @ np.linalg.pinv(
+            monomials(self.printed, self.rule)
+        )
 
 
 def _products(first: int, second: int) -> Powers:
@@ -200,8 +151,6 @@ def _grid(first: tuple[float, ...], second: tuple[float, ...]) -> Float64:
 _TWO, _THREE = (-_G, _G), (-_H, 0.0, _H)
 _TIP = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])
 _P1: Powers = ((0, 0), (1, 0), (0, 1))
-_FOUR_AND_MEAN = np.eye(5, 6)
-_FOUR_AND_MEAN[4, 4:] = 0.5
 _WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
 QUAD8 = Surface(
     nodes=np.concatenate([_TIP, 0.5 * (_TIP + np.roll(_TIP, -1, axis=0))]),
@@ -209,51 +158,50 @@ QUAD8 = Surface(
     linear=_products(1, 1),
     points=_grid(_THREE, _THREE),
     weights=np.outer(_WEIGHTS, _WEIGHTS).ravel(),
-    strains=(
-        (_grid(_TWO, _THREE), _products(1, 2)),
-        (_grid(_THREE, _TWO), _products(2, 1)),
-        (_grid(_TWO, _TWO), _products(1, 1)),
-    ),
-    edges=np.concatenate(
-        [_grid((-1.0, 1.0, 0.0), _TWO)[:, ::-1], _grid((-1.0, 1.0, 0.0), _TWO)]
-    ),
-    towards=np.repeat([[1.0, 0.0], [0.0, 1.0]], 6, axis=0),
-    sides=(0, 0, 2, 2, -1, -1, 3, 3, 1, 1, -1, -1),
-    means=np.kron(np.eye(2), _FOUR_AND_MEAN),
-    shears=((*_products(1, 1), (0, 2)), (*_products(1, 1), (2, 0))),
-    stress=_grid(_TWO, _TWO),
+    rule=_grid(_THREE, _THREE),
+    shares=np.outer(_WEIGHTS, _WEIGHTS).ravel(),
+    reduced=_grid(_TWO, _TWO),
     printed=_products(1, 1),
+    shears=np.stack([_grid(_TWO, _TWO)] * 2),
     even=True,
 )
 _TRI = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-_ALONG = np.roll(_TRI, -1, axis=0) - _TRI
 _INNER = np.array([[1.0, 1.0], [4.0, 1.0], [1.0, 4.0]]) / 6.0
 # Degree four, six points (Strang and Fix).
 _A, _B = 0.445948490915965, 0.091576213509771
 _SIX = np.array([(a, b) for t in (_A, _B) for a, b in
                  ((t, t), (1 - 2 * t, t), (t, 1 - 2 * t))])  # fmt: skip
 _SIX_WEIGHTS = np.repeat([0.223381589678011, 0.109951743655322], 3)
-_EDGES_AND_MEANS = np.zeros((8, 18))
-_EDGES_AND_MEANS[:6, :6] = np.eye(6)
-_EDGES_AND_MEANS[6, 6:12] = _EDGES_AND_MEANS[7, 12:] = _SIX_WEIGHTS
+
+
+def _towards_corners() -> Float64:
+    """(3, 3, 2) points on two lines along a side, at Gauss's distances from it.
+
+    Seen from corner k: one point on the line beside it, two on the line beside the
+    side opposite, half of a Gauss interval of that side to both hands.
+    """
+    near, far = 0.5 * (1.0 + _G), 0.5 * (1.0 - _G)
+    points = np.zeros((3, 3, 3))
+    for k in range(3):
+        others = [(k + 1) % 3, (k + 2) % 3]
+        points[k, 0, k], points[k, 0, others] = near, 0.5 * far
+        points[k, 1:, k] = far
+        side = np.array([0.5 * (near - _G), 0.5 * (near + _G)])
+        points[k, 1, others], points[k, 2, others] = side, side[::-1]
+    return points[..., 1:]
+
+
 TRIA6 = Surface(
-    nodes=np.concatenate([_TRI, _TRI + 0.5 * _ALONG]),
+    nodes=np.concatenate([_TRI, 0.5 * (_TRI + np.roll(_TRI, -1, axis=0))]),
     powers=(*_P1, (2, 0), (1, 1), (0, 2)),
     linear=_P1,
     points=_SIX,
     weights=0.5 * _SIX_WEIGHTS,
-    strains=((_INNER, _P1),) * 3,
-    edges=np.concatenate(
-        [*(_TRI + 0.5 * (1 - g) * _ALONG for g in (_G, -_G)), _SIX, _SIX]
-    ),
-    towards=np.concatenate([_ALONG, _ALONG, np.repeat(np.eye(2), 6, axis=0)]),
-    sides=(0, 1, 2, 0, 1, 2, *[-1] * 12),
-    means=_EDGES_AND_MEANS,
-    shears=(_P1, _P1),
-    turning=((1, 0), (0, 1)),
-    bubble=((27.0, (1, 1)), (-27.0, (2, 1)), (-27.0, (1, 2))),
-    stress=_INNER,
+    rule=_INNER,
+    shares=np.full(3, 1.0 / 6.0),
+    reduced=np.zeros((0, 2)),
     printed=_P1,
+    shears=_towards_corners(),
     even=False,
 )
 
