@@ -15,6 +15,7 @@ import numpy as np
 from benchmarks.suite.compare import differences
 from benchmarks.suite.hdf5_tables import read_nastran_hdf5
 from benchmarks.suite.mystran_listing import read_mystran
+from benchmarks.suite.printed_shear import balanced
 from benchmarks.suite.tables import Name, Table, read_f06, read_op2
 from fem.deck.reader import read_deck
 from fem.deck.text.source import include_reach
@@ -151,7 +152,7 @@ _BUCKLING = (105,)
 
 def _read(path: Path, *, buckling: bool) -> dict[Name, Table]:
     if path.suffix.lower() == ".op2":
-        return read_op2(path)
+        return balanced(read_op2(path))
     if path.suffix.lower() == ".h5":
         return read_nastran_hdf5(path)
     return read_f06(path, buckling=buckling) or read_mystran(path, buckling=buckling)

@@ -125,6 +125,7 @@ _GROUPS: dict[str, tuple[Callable[..., list[Row]], ...]] = {
         curved_shells.shear_forces,
         curved_shells.pressurised_cylinder,
         curved_shells.single_elements,
+        curved_shells.pairs_without_shear_flexibility,
     ),
     "Shells with drilling": (
         drilling_shells.drilling_patches,

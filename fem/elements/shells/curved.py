@@ -4,8 +4,8 @@ Reissner-Mindlin theory on the quadratic surface through the grids, with MSC Nas
 assumed strains: membrane strain and curvature in `curved_strain`, transverse shear in
 `curved_shear`. Grids and mid-sides may be left out. With straight edges and mid-sides
 in their middle uniform strains and curvatures are exact on any shape (patch test).
-K6ROT acts as on CQUAD4; in MSC Nastran it does not, and a rotation about the normal is
-left to AUTOSPC, which cannot hold one that is oblique.
+K6ROT does not act, as in MSC Nastran, where AUTOSPC can hold the rotation about the
+normal; it does where the normal is oblique to the displacement system of the grid.
 
 Element axes at a point: the orthogonal pair that lies evenly about the tangents of the
 quadrilateral; along the first tangent of the triangle. THETA counts from the first
@@ -17,7 +17,7 @@ from functools import cached_property
 
 import numpy as np
 
-from fem.arrays import Float64, Int64
+from fem.arrays import Bool, Float64, Int64
 from fem.elements.block import CENTER, Detail, Kind, Recovery
 from fem.elements.preload import of_gradients, symmetric_plane
 from fem.elements.shells.curved_shear import ShearModes, mode_flexibility, shear_modes
@@ -56,6 +56,7 @@ class CurvedShell(Shell):
         corner_thickness: (e, c).
         theta: (e,) rad, from the first tangent to the material x axis.
         towards: (e, 3) direction of the material x axis instead; NaN where none is.
+        oblique: (e, n) grids whose normal is no axis of their displacement system.
     """
 
     surface: Surface
@@ -63,6 +64,7 @@ class CurvedShell(Shell):
     corner_thickness: Float64
     theta: Float64
     towards: Float64
+    oblique: Bool
 
     @property
     def expanding(self) -> Float64:
@@ -72,7 +74,7 @@ class CurvedShell(Shell):
     @cached_property
     def directors(self) -> Float64:
         """(e, n, 3) normals at the grids."""
-        return base(self.surface, self.nodes, self.surface.nodes).normal
+        return _without_rounding(base(self.surface, self.nodes, self.surface.nodes))
 
     @cached_property
     def reference(self) -> Float64:
@@ -98,7 +100,7 @@ class CurvedShell(Shell):
         x, complete = self._sides, self.surface.complete
         if self.surface.even:
             x = np.concatenate([x, self._middle[:, None] @ x], axis=1)
-        return x, base(complete, x, complete.nodes).normal
+        return x, _without_rounding(base(complete, x, complete.nodes))
 
     @cached_property
     def _from_grids(self) -> Float64:
@@ -220,7 +222,7 @@ class CurvedShell(Shell):
 
     def take(self, part: slice | Int64) -> "CurvedShell":
         """Some of the elements."""
-        own = ("nodes", "corner_thickness", "theta", "towards")
+        own = ("nodes", "corner_thickness", "theta", "towards", "oblique")
         chosen = {name: getattr(self, name)[part] for name in own}
         taken = super().take(part)
         assert isinstance(taken, CurvedShell)
@@ -241,11 +243,14 @@ class CurvedShell(Shell):
             for part in (shear, self._shear_amplitudes)
         )
         matrix += flat.swapaxes(1, 2) @ force
-        if self.k6rot:
+        # A rotation that nothing holds has no stiffness, not that of rounding.
+        largest = np.abs(matrix).max(axis=(1, 2), keepdims=True)
+        matrix[np.abs(matrix) < 1e-25 * largest] = 0.0
+        if self.k6rot and self.oblique.any():
             twist = self.drilling()
             stiff = 1e-6 * self.k6rot * self.section.membrane[:, 2, 2] * self.extent
-            scale = (stiff / len(self.surface.nodes))[:, None, None]
-            matrix += twist.swapaxes(1, 2) @ (scale * twist)
+            scale = (stiff / len(self.surface.nodes))[:, None] * self.oblique
+            matrix += twist.swapaxes(1, 2) @ (scale[..., None] * twist)
         return matrix
 
     def drilling(self) -> Float64:
@@ -265,11 +270,14 @@ class CurvedShell(Shell):
         return twist.reshape(len(self.id), count, -1)
 
     def mass(self, *, coupled: bool) -> Float64:
-        """(e, 6 n, 6 n); lumped: all at the mid-sides, in proportion to their N^2.
+        """(e, 6 n, 6 n); lumped: all at the mid-sides, as MSC Nastran's.
 
-        Those that are left out hand theirs to the ends of their edges. So has MSC
-        Nastran: its triangles have a third at each, its square a quarter; with one
-        mid-side left out its square has 0.282, 0.218, 0.282 at the others, not 0.25.
+        Sums of the rows are negative at the corners of quadrilaterals, each of which
+        hands its own to the mid-sides beside it, by the squares of their distances the
+        other way round: a square has a quarter at each, a rectangle 1 x 0.5 has 0.3 at
+        its long sides (found in MSC's displacements at 10 Hz). Mid-sides that are left
+        out hand theirs to the ends of their edges; MSC's square has 0.282, 0.218, 0.282
+        at the other three then, not 0.25.
         """
         surface = self.surface
         value = surface.values(surface.points)
@@ -278,8 +286,7 @@ class CurvedShell(Shell):
         share = np.stack([weight, weight * thick / thick.mean(axis=1, keepdims=True)])
         products = np.einsum("keq,qi,qj->keij", share, value, value, optimize=True)
         if not coupled:
-            total = products.sum(axis=(2, 3))
-            diagonal = self._at_sides(share) * total[..., None]
+            diagonal = self._at_sides(share)
             products = diagonal[..., None] * np.eye(len(surface.nodes))
         other = products[0] * self.section.nonstructural[:, None, None]
         own = products[1] * self.section.density[:, None, None]
@@ -299,15 +306,20 @@ class CurvedShell(Shell):
         return matrix.reshape(e, 6 * n, 6 * n)
 
     def _at_sides(self, share: Float64) -> Float64:
-        """(k, e, n) parts of lumped masses of weights (k, e, q) at the points."""
-        surface = self.surface
-        whole = SURFACES[self.card]
-        value = whole.values(surface.points)[:, whole.corners :]
-        parts = np.einsum("keq,qi->kei", share, value**2)
-        parts /= parts.sum(axis=2, keepdims=True)
+        """(k, e, n) lumped masses of weights (k, e, q) at the points."""
+        surface, whole = self.surface, SURFACES[self.card]
+        sums = np.einsum("keq,qi->kei", share, whole.values(surface.points))
+        count, x = whole.corners, self._sides
+        sides = sums[..., count:].copy()
+        for k in range(count):
+            beside = [k - 1, k]  # the sides before and after a corner
+            gap = x[:, [count + j % count for j in beside]] - x[:, k, None]
+            near = 1.0 / (gap**2).sum(axis=2)
+            near /= near.sum(axis=1, keepdims=True)
+            sides[..., beside] += sums[..., k, None] * near
         if surface.follow is None:
-            return np.concatenate([np.zeros_like(parts), parts], axis=2)
-        return parts @ surface.follow[whole.corners :]
+            return np.concatenate([np.zeros_like(sums[..., :count]), sides], axis=2)
+        return sides @ surface.follow[count:]
 
     def resultants(self, *, corner: bool = False) -> Float64:
         """(e, p, 8, 6 n) N, M and Q in the element axes at the center (and corners).
@@ -343,6 +355,11 @@ class CurvedShell(Shell):
     def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
         """As `Shell.recovery`, always with the corners, as Nastran prints them."""
         return super().recovery(kind, replace(detail, corner=True))
+
+
+def _without_rounding(at: Base) -> Float64:
+    """(e, q, 3) normals: those along an axis leave the rotation about it free."""
+    return np.where(np.abs(at.normal) < 1e-14, 0.0, at.normal)
 
 
 def material_angle(at: Base, theta: Float64, towards: Float64) -> Float64:

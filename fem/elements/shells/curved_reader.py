@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from fem.arrays import Bool, Float64
+from fem.arrays import Bool, Float64, Int64
 from fem.deck.grids import grids_of
 from fem.deck.records import CARDS
 from fem.deck.references import column, table, where
@@ -108,12 +108,19 @@ def _block(
         corner_thickness=thickness,
         theta=theta,
         towards=towards,
+        oblique=_oblique(points, at, base(surface, nodes, surface.nodes).normal),
     )
 
 
 def _is_normal(towards: Float64, normal: Float64) -> Bool:
     """(e,) whether directions (e, 3) have no part in the surface; NaN has one."""
     return np.abs(np.einsum("ei,ei->e", towards, normal)) > 1.0 - 1e-12
+
+
+def _oblique(points: Points, at: Int64, normal: Float64) -> Bool:
+    """(e, n) whether normals (e, n, 3) are no axes of their grids' systems."""
+    along = np.abs(np.einsum("enij,eni->enj", points.rotation[at], normal))
+    return along.max(axis=2) < 1.0 - 1e-12
 
 
 def _refuse(rows: pd.DataFrame, card: str, bad: Bool, text: str) -> None:

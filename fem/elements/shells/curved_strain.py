@@ -148,7 +148,7 @@ def assumed_strain(surface: Surface, x: Float64, d: Float64) -> Float64:
         return plane_strain(surface, x, d, surface.rule)
     center = base(surface, x, np.zeros((1, 2)))
     bilinear, rest = _split(surface, x, d, center)
-    rest[:, :, :3] = _in_plane(surface, x, center)[:, :, :3]
+    rest[:, :, :3] = _in_plane(surface, x, center)
     back = turned(center, base(surface, x, surface.rule))[:, :, 0, :6, :6]
     return back @ (bilinear + _KEPT[:, None] * rest)
 
@@ -172,7 +172,7 @@ def _split(
 
 
 def _in_plane(surface: Surface, x: Float64, center: Base) -> Float64:
-    """(e, r, 6, 6 n) the rest of the element's projection on the plane of the center.
+    """(e, r, 3, 6 n) the rest of the membrane, projected on the plane of the center.
 
     On the plane a deflection does not stretch: bent elements would lock. Rigid motions
     of the bent element, which strain the plane one, are taken out.
@@ -182,12 +182,16 @@ def _in_plane(surface: Surface, x: Float64, center: Base) -> Float64:
     flat = x - height * normal
     _, rest = _split(surface, flat, np.broadcast_to(normal, x.shape), center)
     e, n, _ = x.shape
-    rigid = np.zeros((e, n, 2, 3, 2, 3))
-    rigid[:, :, 0, :, 0] = rigid[:, :, 1, :, 1] = np.eye(3)
+    rest = rest[:, :, :3].reshape(e, -1, 3, n, 2, 3).copy()
+    rigid = np.zeros((e, n, 3, 2, 3))
+    rigid[:, :, :, 0] = np.eye(3)
     arm = x - x.mean(axis=1, keepdims=True)
-    rigid[:, :, 0, :, 1] = np.cross(np.eye(3), arm[:, :, None]).swapaxes(2, 3)
-    rigid = rigid.reshape(e, 6 * n, 6)
-    return rest - (rest @ rigid[:, None]) @ np.linalg.pinv(rigid)[:, None]
+    rigid[:, :, :, 1] = np.cross(np.eye(3), arm[:, :, None]).swapaxes(2, 3)
+    rigid = rigid.reshape(e, 1, 3 * n, 6)
+    of_u = rest[..., 0, :]
+    stray = (of_u.reshape(e, -1, 3, 3 * n) @ rigid) @ np.linalg.pinv(rigid)
+    rest[..., 0, :] = of_u - stray.reshape(of_u.shape)
+    return rest.reshape(e, -1, 3, 6 * n)
 
 
 def from_grids(
