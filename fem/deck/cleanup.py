@@ -16,6 +16,7 @@ Tables = dict[str, pd.DataFrame]
 SCALAR_ELEMENTS = tuple(
     f"{kind}{form}" for kind in ("CELAS", "CDAMP", "CMASS") for form in "12"
 )
+_WITH_DIRECTION = ("CQUAD4", "CTRIA3", "CQUADR", "CTRIAR", "CQUAD8", "CTRIA6")
 _REPEATABLE = ("GRID", "SPOINT", "CORD")
 
 
@@ -37,6 +38,7 @@ def clean(tables: Tables, ignored: Sequence[RawCard], notices: list[str]) -> Non
     both = [t for t in (tables["ASET"], tables["CSET"]) if len(t)]
     if both:
         tables["ASET"] = pd.concat(both, ignore_index=True)
+    _drop_idle_directions(tables, notices)
     _drop_loads_on(_element_ids(ignored), tables, notices)
 
 
@@ -151,6 +153,25 @@ def _unroll_elements(
     kept = table.drop(columns="thru")
     kept[column] = pd.Series(loaded, index=kept.index, dtype=object)
     tables[name] = kept
+
+
+def _drop_idle_directions(tables: Tables, notices: list[str]) -> None:
+    """Absent systems as material directions of sheets that are alike in all of them."""
+    sheet, isotropic = tables["PSHELL"], {0, -1, *tables["MAT1"]["mid"].tolist()}
+    alike = sheet[[f"mid{k}" for k in range(1, 5)]].isin(isotropic).all(axis=1)
+    pids = sheet["pid"][alike]
+    for name in _WITH_DIRECTION:
+        table = tables[name]
+        idle = (table["mcid"] > 0) & ~table["mcid"].isin(tables["CORD"]["cid"])
+        idle &= table["pid"].isin(pids)
+        if idle.any():
+            absent = sorted(set(table["mcid"][idle].tolist()))
+            shown = ", ".join(map(str, absent[:8])) + (", ..." * (len(absent) > 8))
+            notices.append(
+                f"{name}: coordinate systems {shown} of MCID are not defined; their "
+                "materials are isotropic, which need none"
+            )
+            table.loc[idle, "mcid"] = -1
 
 
 def _element_ids(cards: Sequence[RawCard]) -> npt.NDArray[np.int64]:

@@ -167,3 +167,14 @@ def test_masses_alone_hold_nothing(read):
     deck = read("GRID,1\nCONM2,1,1,,2.\nSPC1,1,123,1\n", alone=True, case="SPC=1")
     with pytest.raises(InputError, match="expected elements that hold the grids"):
         _ = Structure.from_deck(deck).stiffness
+
+
+def test_absent_directions_of_isotropic_sheets_count_for_nothing(read):
+    turned = PLATES.replace("CQUAD4,1,1,1,2,3,4", "CQUAD4,1,1,1,2,3,4,9")
+    deck = read(turned, alone=True)
+    assert deck.cards["CQUAD4"]["mcid"].tolist() == [-1, -1]
+    assert "coordinate systems 9 of MCID are not defined" in "".join(deck.notices)
+    orthotropic = turned.replace("MAT1,1,7.+10,,.3", "MAT8,1,7.+10,1.+10,.3,5.+9")
+    orthotropic = orthotropic.replace("PROD,2,1", "MAT1,7,1.,,.3\nPROD,2,7")
+    with pytest.raises(InputError, match="coordinate system 9 is not defined"):
+        read(orthotropic, alone=True)
