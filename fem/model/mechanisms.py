@@ -108,15 +108,22 @@ def _null_motions(matrix: sp.csr_matrix, solver: SolverName | None) -> Float64:
     diagonal = matrix.diagonal()
     largest = diagonal.max(initial=0.0)
     scale = np.where(diagonal > 0.0, diagonal, largest if largest > 0.0 else 1.0)
-    stiffened = sp.csr_matrix(matrix + _STIFFENING * sp.diags(scale))
+    # Of unit diagonal: freedoms of very different stiffness are stiffened alike.
+    weight = 1.0 / np.sqrt(scale)
+    even = sp.diags(weight)
+    stiffened = sp.csr_matrix(even @ matrix @ even + _STIFFENING * sp.eye(n))
     try:
         factor = factorize(stiffened, kind="symmetric", solver=solver)
     except SingularMatrixError:
         return np.zeros((n, 0))
+
+    def solve(load: Float64) -> Float64:
+        return weight[:, None] * factor.solve(weight[:, None] * load)
+
     with factor:
         block = min(_FIRST_BLOCK, n)
         while True:
-            motions = _smallest(factor.solve, matrix, scale, block)
+            motions = _smallest(solve, matrix, scale, block)
             if motions.shape[1] < block or block == n:
                 return motions
             block = min(4 * block, n)

@@ -178,3 +178,20 @@ def test_absent_directions_of_isotropic_sheets_count_for_nothing(read):
     orthotropic = orthotropic.replace("PROD,2,1", "MAT1,7,1.,,.3\nPROD,2,7")
     with pytest.raises(InputError, match="coordinate system 9 is not defined"):
         read(orthotropic, alone=True)
+
+
+@pytest.mark.parametrize("thickness", [1e-2, 1e-4])
+def test_a_thin_sheet_on_a_hinge_is_named_as_a_thick_one(read, thickness):
+    """Stiffness across a sheet is thickness² of that along it."""
+    grids = [(-1, 0), (0, 0), (1, 0), (-1, 1), (0, 1), (1, 1)]
+    c, s = np.cos(0.6), np.sin(0.6)
+    bulk = "".join(
+        f"GRID,{k},,{x * c - y * s:.10f},{x * s + y * c:.10f}\n"
+        for k, (x, y) in enumerate(grids, start=1)
+    )
+    bulk += f"PSHELL,1,1,{thickness},1,,1\nMAT1,1,1.+5,,.3\nSPC1,1,123,1,4\n"
+    bulk += "CQUAD4,1,1,1,2,5,4\nCQUAD4,2,1,2,3,6,5\n"
+    structure = Structure.from_deck(read(bulk, alone=True, case="SPC=1"))
+    (found,) = structure.mechanisms()
+    assert found.motions.shape[1] == 1
+    assert len(found.rows) == 16
