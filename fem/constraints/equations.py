@@ -1,11 +1,19 @@
 """Linear constraint equations: a dependent freedom as combination of others."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from fem.arrays import Float64, Int64
+from fem.deck.references import table, where
+from fem.errors import InputError
+from fem.geometry.points import Points
+
+if TYPE_CHECKING:
+    from fem.deck.deck import Deck
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,6 +59,32 @@ def concatenate(parts: Iterable[Equations]) -> Equations:
         value=np.concatenate([np.zeros(0), *(p.value for p in parts)]),
         source=tuple(s for p in parts for s in p.source),
     )
+
+
+def equations_of_rows(
+    deck: "Deck",
+    points: Points,
+    makers: Mapping[str, Callable[[pd.Series, Points, str], Equations]],
+) -> list[Equations]:
+    """Equations of all elements of some card tables, each by the maker of its table.
+
+    A maker takes a row, the points and the name of the element, "RBE3 12".
+
+    Raises:
+        InputError: what makers say, each with its place; all of it.
+    """
+    equations, problems = [], []
+    for name, make in makers.items():
+        for _, row in table(deck, name).iterrows():
+            card = str(row.get("card") or name)
+            try:
+                equations.append(make(row, points, f"{card} {row['eid']}"))
+            except InputError as error:
+                place = where(name, row).replace(name, card)
+                problems += [f"{place}: {p}" for p in error.problems]
+    if problems:
+        raise InputError(problems)
+    return equations
 
 
 def components(digits: object) -> Int64:

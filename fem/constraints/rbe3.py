@@ -17,10 +17,10 @@ from fem.constraints.equations import (
     Equations,
     components,
     dense_equations,
+    equations_of_rows,
 )
-from fem.deck.references import table, where
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.geometry.rigid_motion import rigid_motion
 
 if TYPE_CHECKING:
@@ -34,15 +34,7 @@ def read_rbe3(deck: "Deck", points: Points) -> list[Equations]:
         InputError: undefined grids, grids that do not determine the reference's motion,
             a UM set of the wrong size or outside of the element.
     """
-    equations, problems = [], []
-    for _, row in table(deck, "RBE3").iterrows():
-        try:
-            equations.append(_equations(row, points))
-        except InputError as error:
-            problems += [f"{where('RBE3', row)}: {p}" for p in error.problems]
-    if problems:
-        raise InputError(problems)
-    return equations
+    return equations_of_rows(deck, points, {"RBE3": _equations})
 
 
 def interpolation(lever: Float64, R_BD: Float64, weight: Float64) -> Float64:
@@ -72,7 +64,7 @@ def interpolation(lever: Float64, R_BD: Float64, weight: Float64) -> Float64:
     return result * np.repeat([1.0, 1 / unit], 3)[:, None]
 
 
-def _equations(row: pd.Series, points: Points) -> Equations:
+def _equations(row: pd.Series, points: Points, source: str) -> Equations:
     grids, weight = _weights(row)
     reference = int(points.rows(int(row["refgrid"])))
     at = points.rows(grids)
@@ -93,9 +85,8 @@ def _equations(row: pd.Series, points: Points) -> Equations:
         )
     used_weight = weight.reshape(-1) != 0.0
     matrix = chosen[:, used] @ matrix[used][:, used_weight]
-    columns = (6 * at[:, None] + np.arange(6)).reshape(-1)[used_weight]
+    columns = grid_freedoms(at)[used_weight]
     dependent = 6 * reference + refc
-    source = f"RBE3 {row['eid']}"
     if len(row["umgrids"]):
         m_set = _um(row, points)
         return _exchange(dependent, columns, matrix, m_set, source)

@@ -14,10 +14,10 @@ from fem.constraints.equations import (
     Equations,
     components,
     dense_equations,
+    equations_of_rows,
 )
-from fem.deck.references import table, where
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.geometry.rigid_motion import rigid_motion
 
 if TYPE_CHECKING:
@@ -31,18 +31,8 @@ def read_bodies(deck: "Deck", points: Points) -> list[Equations]:
         InputError: undefined grids, independent components that are not six or do not
             determine a rigid motion, rods without length or across their freedom; all.
     """
-    equations, problems = [], []
-    for name, make in (("RBAR", _rbar), ("RBE1", _rbe1), ("RROD", _rrod)):
-        for _, row in table(deck, name).iterrows():
-            card = str(row.get("card") or name)
-            try:
-                equations.append(make(row, points, f"{card} {row['eid']}"))
-            except InputError as error:
-                place = where(name, row).replace(name, card)
-                problems += [f"{place}: {p}" for p in error.problems]
-    if problems:
-        raise InputError(problems)
-    return equations
+    makers = {"RBAR": _rbar, "RBE1": _rbe1, "RROD": _rrod}
+    return equations_of_rows(deck, points, makers)
 
 
 def _rbar(row: pd.Series, points: Points, source: str) -> Equations:
@@ -69,7 +59,7 @@ def _body(
     points: Points, at: Int64, independent: Int64, dependent: Int64, source: str
 ) -> Equations:
     """Six independent rows of the g-set move the dependent ones, by default all."""
-    every = (6 * at[:, None] + np.arange(6)).reshape(-1)
+    every = grid_freedoms(at)
     if not len(dependent):
         dependent = np.setdiff1d(every, independent)
     if len(independent) != 6:
@@ -106,7 +96,7 @@ def _rrod(row: pd.Series, points: Points, source: str) -> Equations:
             "one of them"
         )
     along = np.einsum("kij,i->kj", points.rotation[at], line / length)
-    dof = (6 * at[:, None] + np.arange(3)).reshape(-1)
+    dof = grid_freedoms(at, 3)
     equation = np.concatenate([-along[0], along[1]])
     own = dof == chosen[0]
     if np.abs(equation[own]) < 1e-6:

@@ -13,12 +13,16 @@ import numpy as np
 import pandas as pd
 
 from fem.arrays import Float64
-from fem.constraints.equations import Equations, components, dense_equations
-from fem.deck.references import table, where
+from fem.constraints.equations import (
+    Equations,
+    components,
+    dense_equations,
+    equations_of_rows,
+)
 from fem.elements.lines.bar import BarSection, bar_stiffness
 from fem.elements.lines.line_geometry import LineGeometry, axes_about, congruence
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.materials import Isotropic
 
 if TYPE_CHECKING:
@@ -33,18 +37,10 @@ def read_splines(deck: "Deck", points: Points) -> list[Equations]:
     Raises:
         InputError: undefined grids, neighbours that coincide; all of them.
     """
-    equations, problems = [], []
-    for _, row in table(deck, "RSPLINE").iterrows():
-        try:
-            equations.append(_equations(row, points))
-        except InputError as error:
-            problems += [f"{where('RSPLINE', row)}: {p}" for p in error.problems]
-    if problems:
-        raise InputError(problems)
-    return equations
+    return equations_of_rows(deck, points, {"RSPLINE": _equations})
 
 
-def _equations(row: pd.Series, points: Points) -> Equations:
+def _equations(row: pd.Series, points: Points, source: str) -> Equations:
     at = points.rows(np.asarray(row["grids"], np.int64))
     lines = np.diff(points.xyz[at], axis=0)
     length = np.linalg.norm(lines, axis=1)
@@ -65,8 +61,8 @@ def _equations(row: pd.Series, points: Points) -> Equations:
     square = k[np.ix_(d, d)] * np.outer(scale, scale)
     matrix = -scale[:, None] * np.linalg.solve(square, scale[:, None] * k[d][:, rest])
     matrix[np.abs(matrix) < 1e-13 * np.abs(matrix).max()] = 0.0
-    dof = (6 * at[:, None] + np.arange(6)).reshape(-1)
-    return dense_equations(dof[d], dof[rest], matrix, f"RSPLINE {row['eid']}")
+    dof = grid_freedoms(at)
+    return dense_equations(dof[d], dof[rest], matrix, source)
 
 
 def _beam(lines: Float64, length: Float64, diameter: float) -> Float64:

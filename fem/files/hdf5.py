@@ -22,7 +22,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.control.case_sets import Selection
 from fem.files.atomic_hdf5 import written_hdf5
 from fem.files.finite_check import require_finite
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.model.structure import Structure
 from fem.recovery.elements import ElementTable
 from fem.recovery.grid_forces import GridBalance
@@ -195,7 +195,7 @@ class PointLayout:
         scalar = _chosen(points.spoint_id, wanted)
         self.grid_id = points.grid_id[grid]
         self.scalar_id = points.spoint_id[scalar]
-        self.grid_dof = (6 * grid[:, None] + np.arange(6)).reshape(-1)
+        self.grid_dof = grid_freedoms(grid)
         self.scalar_dof = 6 * len(points.grid_id) + scalar
         self.labels = _Labels(points, self.dof)
 

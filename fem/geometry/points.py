@@ -132,6 +132,16 @@ class Points:
         return matrix
 
 
+def grid_freedoms(at: Int64, count: int = 6) -> Int64:
+    """(..., n * count) rows of the g-set of grids by their place among all grids.
+
+    Args:
+        at: (..., n) see `Points.rows`.
+        count: the first so many components of each: 3 for translations alone.
+    """
+    return (6 * at[..., None] + np.arange(count)).reshape(*at.shape[:-1], -1)
+
+
 def _some(ids: list[int], most: int = 10) -> str:
     """The first ids of a list, and how many there are."""
     shown = ", ".join(map(str, ids[:most]))

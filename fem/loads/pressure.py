@@ -15,7 +15,7 @@ from fem.deck.grids import grids_of
 from fem.deck.records import Topology, topologies
 from fem.deck.references import where
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.loads.faces import Faces, face_forces
 
 if TYPE_CHECKING:
@@ -113,7 +113,7 @@ def _forces(points: Points, found: dict[int, _Collected]) -> tuple[Int64, Float6
     at = np.concatenate([part[0] for part in parts])
     forces = np.concatenate([part[1] for part in parts])
     local = np.einsum("nji,nj->ni", points.rotation[at], forces)
-    return (6 * at[:, None] + np.arange(3)).ravel(), local.ravel()
+    return grid_freedoms(at, 3), local.ravel()
 
 
 def _per_element(rows: pd.DataFrame) -> pd.DataFrame:

@@ -17,7 +17,7 @@ import scipy.sparse as sp
 from fem.arrays import Bool, Float64, Int64
 from fem.constraints.elimination import Elimination
 from fem.elements.block import ElementBlock
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.loads.thermal import FreeMotions
 from fem.model.assembly import to_displacement, triples_rotation, turn_columns
 
@@ -112,7 +112,7 @@ def grid_balance(
     ids = np.concatenate(element)
     kind = np.repeat(np.arange(len(names)), sizes)
     order = np.lexsort((ids, kind, grid))
-    rows = (6 * order[:, None] + np.arange(6)).reshape(-1)
+    rows = grid_freedoms(order)
     return GridBalance(
         grid_id=points.grid_id[grid[order]],
         element_id=ids[order],

@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from fem.arrays import Float64, Int64
 from fem.elements.block import ElementBlock
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.model.structure import Structure
 from fem.recovery.grid_forces import grid_balance
 
@@ -117,8 +117,8 @@ def _forces(
     of_elements = balance.element_id > 0
     chosen = of_elements & (np.isin(balance.element_id, inside) == bool(flags))
     own = np.flatnonzero(chosen)
-    entries = (6 * own[:, None] + np.arange(6)).reshape(-1)
-    to = (6 * balance.at[own][:, None] + np.arange(6)).reshape(-1)
+    entries = grid_freedoms(own)
+    to = grid_freedoms(balance.at[own])
     gather = sp.csr_matrix(
         (np.full(len(to), 1.0 if flags else -1.0), (to, np.arange(len(to)))),
         shape=(points.size, len(to)),

@@ -25,7 +25,7 @@ from fem.elements.lines.line_preload import over, shear_ratio
 from fem.elements.lines.orientation import place_lines
 from fem.elements.lines.pins import pin_flags
 from fem.elements.nonstructural_mass import MassInSection
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.materials import Isotropic, isotropic
 
 if TYPE_CHECKING:
@@ -252,7 +252,7 @@ def read_cbar(deck: "Deck", points: Points) -> list[Bar]:
         return []
     pbar = refer(rows, "CBAR", "pid", table(deck, "PBAR"), "PBAR")
     ends = points.rows(rows[["ga", "gb"]].to_numpy(np.int64))
-    dof = (6 * ends[:, :, None] + np.arange(6)).reshape(-1, 12)
+    dof = grid_freedoms(ends)
     released = np.hstack([pin_flags([str(p) for p in rows[c]]) for c in ("pa", "pb")])
     return [
         Bar(

@@ -13,7 +13,7 @@ from fem.elements.lines.beam_warping import WarpingBeam
 from fem.elements.lines.orientation import place_lines
 from fem.elements.lines.pins import pin_flags
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.materials import isotropic
 
 if TYPE_CHECKING:
@@ -98,7 +98,7 @@ def _block(
 ) -> Beam:
     rows, pbeam = rows.reset_index(drop=True), pbeam.reset_index(drop=True)
     ends = points.rows(rows[["ga", "gb"]].to_numpy(np.int64))
-    dof = (6 * ends[:, :, None] + np.arange(6)).reshape(-1, 12)
+    dof = grid_freedoms(ends)
     released = np.hstack([pin_flags([str(p) for p in rows[c]]) for c in ("pa", "pb")])
     common = {
         "card": "CBEAM",

@@ -34,7 +34,7 @@ from fem.elements.dense import DenseBlock, some
 from fem.elements.lines.line_geometry import congruence, skew
 from fem.elements.lines.orientation import orientation_vectors
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.materials import isotropic
 
 if TYPE_CHECKING:
@@ -185,7 +185,7 @@ def read_cbend(deck: "Deck", points: Points) -> list[Bends]:
         Bends(
             card="CBEND",
             id=rows["eid"].to_numpy(np.int64),
-            dof=(6 * at[:, :, None] + np.arange(6)).reshape(len(rows), -1),
+            dof=grid_freedoms(at),
             arc=arc,
             ends=points.xyz[at],
             compliance=_compliance(values, material.e, material.g, arc.radius),

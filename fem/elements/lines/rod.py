@@ -14,7 +14,7 @@ from fem.elements.dense import DenseBlock, some
 from fem.elements.nonstructural_mass import MassInSection
 from fem.elements.preload import tension_across
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.materials import Isotropic, isotropic
 
 if TYPE_CHECKING:
@@ -247,7 +247,7 @@ def _rods(
     return Rod(
         card=card,
         id=rows["eid"].to_numpy(np.int64),
-        dof=(6 * ends[:, :, None] + np.arange(6)).reshape(-1, 12),
+        dof=grid_freedoms(ends),
         pid=rows["pid"].to_numpy(np.int64),
         property_card=property_card,
         axis=axis,

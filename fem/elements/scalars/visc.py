@@ -11,7 +11,7 @@ from fem.deck.references import column, refer, table
 from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock
 from fem.elements.lines.rod import line_springs, unit_axes
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -66,7 +66,7 @@ def read_cvisc(deck: "Deck", points: Points) -> list[Viscous]:
         Viscous(
             card="CVISC",
             id=rows["eid"].to_numpy(np.int64),
-            dof=(6 * ends[:, :, None] + np.arange(6)).reshape(-1, 12),
+            dof=grid_freedoms(ends),
             axis=unit_axes(rows, "CVISC", between)[0],
             axial=column(values, "ce"),
             torsional=column(values, "cr"),

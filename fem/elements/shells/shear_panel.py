@@ -23,7 +23,7 @@ from fem.elements.preload import tension_across
 from fem.elements.shells.convex import bad_facets
 from fem.elements.shells.shell_geometry import facet
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.materials import Isotropic, isotropic
 
 if TYPE_CHECKING:
@@ -373,7 +373,7 @@ def read_cshear(deck: "Deck", points: Points) -> list[ShearPanel]:
         ShearPanel(
             card="CSHEAR",
             id=rows["eid"].to_numpy(np.int64),
-            dof=(6 * at[:, :, None] + np.arange(3)).reshape(len(rows), 12),
+            dof=grid_freedoms(at, 3),
             pid=rows["pid"].to_numpy(np.int64),
             corners=corners,
             thickness=thickness,

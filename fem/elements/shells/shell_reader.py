@@ -12,7 +12,7 @@ from fem.elements.shells.shell import Shell
 from fem.elements.shells.shell_geometry import facet
 from fem.elements.shells.shell_normals import deck_normals
 from fem.errors import InputError, nearest
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.shells import ShellProperty, read_shell_properties, sections
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def _block(
     return Shell(
         card=card,
         id=rows["eid"].to_numpy(np.int64),
-        dof=(6 * at[:, :, None] + np.arange(6)).reshape(len(rows), -1),
+        dof=grid_freedoms(at),
         pid=pid,
         property_card=used[0].card,
         corners=xyz,

@@ -20,7 +20,7 @@ from fem.elements.solids.integration import integration_of
 from fem.elements.solids.isoparametric import jacobians
 from fem.elements.solids.solid import Matrices, Shape, Solid
 from fem.errors import InputError
-from fem.geometry.points import Points
+from fem.geometry.points import Points, grid_freedoms
 from fem.properties.elasticity import Elasticity, ElasticityTable
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def read_solids(
         InputError: undefined references, elements turned inside out; all of them.
     """
     rows = table(deck, card).sort_values("eid", ignore_index=True)
-    layered = rows["pid"].isin(table(deck, "PCOMPS")["pid"])
+    layered = rows["pid"].isin(table(deck, "PCOMPS")["pid"]).to_numpy()
     if layered.any() and card != "CHEXA":
         raise InputError(
             f"{where(card, rows[layered].iloc[0])}: {card} with PCOMPS is not "
@@ -110,7 +110,7 @@ def _block(
     return Solid(
         card=shape.card,
         id=rows["eid"].to_numpy(np.int64),
-        dof=(6 * at[:, :, None] + np.arange(3)).reshape(len(rows), -1),
+        dof=grid_freedoms(at, 3),
         pid=rows["pid"].to_numpy(np.int64),
         shape=shape,
         nodes=nodes,
