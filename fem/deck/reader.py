@@ -148,7 +148,7 @@ def _own_references(deck: Deck) -> list[str]:
     return [
         f"warning: {name} {', '.join(map(str, given))}: TREF counts; "
         "TEMPERATURE(INITIAL) is the reference of materials with a blank TREF only"
-        for name in ("MAT1", "MAT2", "MAT8", "MAT9", "PCOMP")
+        for name in ("MAT1", "MAT2", "MAT3", "MAT8", "MAT9", "PCOMP", "PCOMPS")
         if (given := deck.cards[name].dropna(subset="tref").iloc[:, 2].tolist()[:8])
     ]
 

@@ -25,7 +25,8 @@ class RingMaterial:
 
     Attributes:
         elasticity: (4, 4).
-        rho, ge, tref: density, structural damping, temperature without strain.
+        rho, ge, tref: density, structural damping, temperature without strain
+            (NaN: blank).
         alpha: (3,) strain per degree.
     """
 
@@ -102,7 +103,7 @@ def _material(row: pd.Series, elasticity: Float64, alpha: Float64) -> RingMateri
         elasticity=elasticity,
         rho=_number(row, "rho"),
         ge=_number(row, "ge"),
-        tref=_number(row, "tref"),
+        tref=float(row["tref"]),
         alpha=alpha,
     )
 

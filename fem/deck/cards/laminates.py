@@ -53,7 +53,7 @@ def pcomps(f: Fields) -> Rows:
             "pid": f.integer(1, "PID"),
             "cordm": f.integer(2, "CORDM", 0),
             "psdir": psdir,
-            "tref": f.real(6, "TREF", 0.0),
+            "tref": f.real(6, "TREF", math.nan),
             "ge": f.real(7, "GE", 0.0),
             "mids": mids,
             "ts": ts,

@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from fem.deck.cards import conversions, finish, lists, masses
+from fem.deck.cards import conversions, finish, lists, masses, solids
 from fem.deck.records.card import Card, Element, Topology
 
 _GROUP = "Masses"
@@ -14,7 +14,7 @@ RECORDS = (
     Card(
         name="CONM1",
         group=_GROUP,
-        read=lists.conm1,
+        read=solids.conm1,
         more="eid:i g:i>GRID cid:i>CORD ms:*",  # ms: (6, 6) symmetric
         ids="own",
         convert=conversions.mass_matrix,

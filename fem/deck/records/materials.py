@@ -1,6 +1,6 @@
 """Materials, and matrices given directly."""
 
-from fem.deck.cards import conversions, dmig, lists
+from fem.deck.cards import conversions, dmig, solids
 from fem.deck.records.card import Card
 
 _GROUP = "Materials"
@@ -36,7 +36,7 @@ RECORDS = (
     Card(
         name="MAT9",
         group=_GROUP,
-        read=lists.mat9,
+        read=solids.mat9,
         more="mid:i gs:*[M/L] rho:f[M/L3] ge:f alphas:* tref:f",
         ids="material",
     ),
@@ -45,10 +45,10 @@ RECORDS = (
         name="MAT3",
         group=_GROUP,
         fields="mid:i ex:f[M/L] eth:f[M/L] ez:f[M/L] nuxth:f=0. nuthz:f=0. nuzx:f=0. "
-        "rho:f=0.[M/L3] - - gzx:f[M/L] ax:f=0. ath:f=0. az:f=0. tref:f=0. ge:f=0.",
+        "rho:f=0.[M/L3] - - gzx:f[M/L] ax:f=0. ath:f=0. az:f=0. tref:f=nan ge:f=0.",
         ids="material",
     ),
-    Card(name="MAT11", group=_GROUP, read=lists.mat11, table="MAT9", ids="material"),
+    Card(name="MAT11", group=_GROUP, read=solids.mat11, table="MAT9", ids="material"),
     # Complete, both triangles; columns of text and numbers.
     Card(
         name="DMIG",

@@ -5,7 +5,7 @@ nodes: (n,) corners, then mid-sides, 0 for those that are not there.
 
 from functools import partial
 
-from fem.deck.cards import laminates, lists
+from fem.deck.cards import laminates, solids
 from fem.deck.records.card import Card, Element, Op2, Result, Topology
 from fem.deck.records.shells import of_plies
 
@@ -99,7 +99,7 @@ def _solid(
     return Card(
         name=name,
         group=_GROUP,
-        read=partial(lists.solid, most=most, corners=topology.corners),
+        read=partial(solids.solid, most=most, corners=topology.corners),
         more=_COLUMNS,
         ids="own",
         element=Element(
@@ -145,7 +145,7 @@ RECORDS = (
         Card(
             name=f"CPLST{kind}{count}",
             group=_GROUP,
-            read=partial(lists.plane, count=count),
+            read=partial(solids.plane, count=count),
             more="eid:i pid:i>PPLANE nodes:*>GRID",
             ids="own",
             element=Element(

@@ -7,7 +7,7 @@ the displacements that NX Nastran prints for plane strain its inner grids are in
 to single precision, and these are its stresses (pyNastran models, conedg01e).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,7 @@ from fem.elements.block import Recovery
 from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.shell_recovery import point_names
 from fem.elements.solids.isoparametric import product_penta
-from fem.elements.solids.ring import shapes as ring_shapes
+from fem.elements.solids.plane_shapes import CORNERS, Shapes, quad4, quad8, triangle
 from fem.elements.stress_measures import solid_von_mises
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -32,57 +32,7 @@ if TYPE_CHECKING:
     from fem.deck.deck import Deck
 
 CARDS = tuple(f"CPLST{kind}{n}" for kind in "NS" for n in (3, 4, 6, 8))
-_CORNERS = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
-_AROUND = [0, 2, 4, 1, 3, 5]  # corners first, of grids that go round
 _FLAT = 1e-6  # of the size: how far from its plane a grid may lie
-Shapes = Callable[[Float64], tuple[Float64, Float64]]
-
-
-def _triangle(count: int) -> Shapes:
-    there = np.arange(6) % 2 == 0 if count == 3 else np.ones(6, bool)
-
-    def shapes(points: Float64) -> tuple[Float64, Float64]:
-        value, slope = ring_shapes(points, there)
-        return value[:, _AROUND[:count]], slope[:, :, _AROUND[:count]]
-
-    return shapes
-
-
-def quad4(points: Float64) -> tuple[Float64, Float64]:
-    """Shape functions (q, 4) and derivatives (q, 2, 4)."""
-    x, y = points.T[:, :, None]
-    a, b = _CORNERS.T
-    value = 0.25 * (1.0 + a * x) * (1.0 + b * y)
-    slope = [0.25 * a * (1.0 + b * y), 0.25 * b * (1.0 + a * x)]
-    return value, np.stack(slope, axis=1)
-
-
-def quad8(points: Float64) -> tuple[Float64, Float64]:
-    """Shape functions (q, 8) and derivatives (q, 2, 8), mid-sides after the corners."""
-    x, y = points.T[:, :, None]
-    linear, slope = quad4(points)
-    middle = np.concatenate(
-        [
-            0.5 * (1.0 - x * x) * (1.0 - y),
-            0.5 * (1.0 + x) * (1.0 - y * y),
-            0.5 * (1.0 - x * x) * (1.0 + y),
-            0.5 * (1.0 - x) * (1.0 - y * y),
-        ],
-        axis=1,
-    )
-    along = [
-        np.concatenate(parts, axis=1)
-        for parts in (
-            (-x * (1 - y), 0.5 * (1 - y * y), -x * (1 + y), -0.5 * (1 - y * y)),
-            (-0.5 * (1 - x * x), -y * (1 + x), 0.5 * (1 - x * x), -y * (1 - x)),
-        )
-    ]
-    bent = np.stack(along, axis=1)
-    half = 0.5 * (np.eye(4) + np.roll(np.eye(4), 1, axis=1))
-    return (
-        np.concatenate([linear - middle @ half, middle], axis=1),
-        np.concatenate([slope - bent @ half, bent], axis=2),
-    )
 
 
 def _gauss(order: int) -> tuple[Float64, Float64]:
@@ -97,7 +47,7 @@ def _inside(count: int) -> tuple[Float64, Float64]:
 
 
 _TRIANGLE = np.array([[1 / 3, 1 / 3], [0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
-_QUAD = np.concatenate([np.zeros((1, 2)), _CORNERS])
+_QUAD = np.concatenate([np.zeros((1, 2)), CORNERS])
 
 
 @dataclass(frozen=True)
@@ -110,9 +60,9 @@ class _Kind:
 
 
 _KINDS: Mapping[int, _Kind] = {
-    3: _Kind(_triangle(3), _inside(3), _TRIANGLE[:1]),
+    3: _Kind(triangle(3), _inside(3), _TRIANGLE[:1]),
     4: _Kind(quad4, _gauss(2), _QUAD),
-    6: _Kind(_triangle(6), _inside(3), _TRIANGLE),
+    6: _Kind(triangle(6), _inside(3), _TRIANGLE),
     8: _Kind(quad8, _gauss(3), _QUAD[:1]),  # what NX prints at corners was not found
 }
 
