@@ -43,6 +43,9 @@ def run_command(load: Callable[[], Callable[..., Any]], name: str) -> NoReturn:
     status = exit_status(lambda **options: load()(**options), name)
     for number in _SIGNALS:  # nothing is left that could be interrupted
         signal.signal(number, signal.SIG_IGN)
+    # Where the interrupt met code that was made from text (a dataclass being defined),
+    # Python would still end as by Ctrl-C; the next text that it runs makes it forget.
+    exec("")
     sys.exit(_flushed(status))
 
 

@@ -79,6 +79,28 @@ def test_signals_are_one_line_whatever_libraries_make_of_them(
     assert signal.getsignal(number) is before
 
 
+TEXT_INTERRUPTED = """
+import os, signal
+from fem.exit_status import run_command
+if __name__ == "__main__":
+    code = f"os.kill({os.getpid()}, signal.SIGTERM)\\nwhile True: pass"
+    run_command(lambda: lambda **_: exec(code), "x")
+"""
+
+
+def test_interrupts_of_code_that_is_being_made_end_alike(tmp_path):
+    """Python's own end would be that of Ctrl-C: dataclasses are made from text."""
+    (tmp_path / "program.py").write_text(TEXT_INTERRUPTED)
+    done = subprocess.run(
+        [sys.executable, "-m", "program"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (143, "ended by SIGTERM\n")
+
+
 def piped(line: str) -> tuple[int, str]:
     """Status of the command before the pipe, and standard error."""
     done = subprocess.run(
