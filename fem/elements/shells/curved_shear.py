@@ -20,9 +20,10 @@ square and a half square (thick, and thinner, with and without mid-sides, single
 precision) and gives two rectangles without shear flexibility their 53 printed figures
 to 1e-7. Elements of other shapes were not at hand: of quadrilaterals l and w are the
 lengths of the middle lines, along which the flexibilities act, D that of bending along
-them; of triangles D is the mean of all directions. MSC prints other shear forces than
-these, which are in equilibrium: of triangles a sixth, of quadrilaterals with a third of
-what is linear and a ninth of r s.
+them; of triangles D is the mean of all directions, and the area their measure (28
+triangles of many shapes deflect within 0.14 % of MSC's then, not with other measures).
+MSC prints other shear forces than these, which are in equilibrium: of triangles a
+sixth, of quadrilaterals with a third of what is linear and a ninth of r s.
 """
 
 from dataclasses import dataclass
