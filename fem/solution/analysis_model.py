@@ -4,6 +4,7 @@ Direct dynamics add extra points and what K2PP, TFL and their like select (the d
 modal ones with such input are solved as a system of modes and extra points (the h-set).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +16,6 @@ from fem.algebra.linear_solver import Kind, SolverName
 from fem.algebra.modes import Modes
 from fem.algebra.reduction import reduce_craig_bampton
 from fem.arrays import Float64, Int64
-from fem.errors import InputError
 from fem.model.dynamic_input import DynamicInput
 from fem.model.structure import Structure
 from fem.response.modal import modal_damping
@@ -60,25 +60,35 @@ class AnalysisModel:
         return sp.csr_matrix(self.expand.T @ p_g)
 
 
-def with_dynamic_input(structure: Structure, reduced: AnalysisModel) -> AnalysisModel:
+def moving_extra_points(structure: Structure) -> Int64:
+    """Rows of the extra points that TF or direct input has an equation for."""
+    given, extra = structure.dynamic_input, structure.points.extra_dof
+    if given is None:
+        return extra[:0]
+    used = np.zeros(structure.points.size, bool)
+    for matrix in (given.stiffness, given.damping, given.mass, given.structural):
+        used |= np.diff(matrix.indptr) > 0
+    return extra[used[extra]]
+
+
+def with_dynamic_input(
+    structure: Structure, reduced: AnalysisModel, say: Callable[[str], None]
+) -> AnalysisModel:
     """Extra points before the freedoms, with what the subcase adds; or nothing new.
 
-    Raises:
-        InputError: extra points that nothing is said of.
+    Args:
+        structure: with its subcase.
+        reduced: its freedoms.
+        say: told of extra points without an equation, which rest, as Nastran has it
+            (its results of such decks hold zeros there).
     """
-    given, extra = structure.dynamic_input, structure.points.extra_dof
-    if not len(extra) and given is None:
-        return reduced
-    used = np.zeros(structure.points.size, bool)
-    if given is not None:
-        for matrix in (given.stiffness, given.damping, given.mass, given.structural):
-            used |= np.diff(matrix.indptr) > 0
-    if (idle := extra[~used[extra]]).size:
-        raise InputError(
-            f"{structure.deck.path}: subcase {structure.subcase.id}: "
-            f"{structure.points.label(int(dof))} has no equation; expected a row of TF "
-            "(TFL) or DMIG (K2PP, B2PP, M2PP)"
-            for dof in idle[:20]
+    given, extra = structure.dynamic_input, moving_extra_points(structure)
+    if (idle := np.setdiff1d(structure.points.extra_dof, extra)).size:
+        names = ", ".join(structure.points.label(int(dof)) for dof in idle[:10])
+        more = ", ..." if len(idle) > 10 else ""
+        say(
+            f"notice: subcase {structure.subcase.id}: {names}{more}: no row of TF (TFL)"
+            " or DMIG (K2PP, B2PP, M2PP); rests, loads on it do nothing"
         )
     if given is None:
         return reduced

@@ -151,7 +151,7 @@ def _direct(
 
     def run(model: Structure) -> Complex128:
         reduced = analysis_model(model, solver=options.solver)
-        reduced = with_dynamic_input(model, reduced)
+        reduced = with_dynamic_input(model, reduced, options.console.say)
         base = base_motion(model, excitation)
         load = _load(model, reduced, hertz, excitation, base)
         u = direct_response(
@@ -233,7 +233,7 @@ def _modal(
     modes = with_residual_vectors(model, reduced, modes, pattern, options)
     ratio = modal_ratios(model.deck, model.subcase, modes.frequency_hz)
     hysteretic = int(model.deck.number("KDAMP")) < 0
-    coupled = with_dynamic_input(model, in_modes(reduced, modes))
+    coupled = with_dynamic_input(model, in_modes(reduced, modes), options.console.say)
     if coupled.direct is not None:
         matrices = _with_ratios(_matrices(model, coupled), modes, ratio, hysteretic)
         load = _load(model, coupled, hertz, excitation, base)

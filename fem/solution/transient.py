@@ -94,7 +94,7 @@ def _direct(
     def run(model: Structure) -> tuple[Float64, list[Observer]]:
         results.discard(*(f"transient/{case.id}" for case in cases))
         reduced = analysis_model(model, solver=options.solver)
-        reduced = with_dynamic_input(model, reduced)
+        reduced = with_dynamic_input(model, reduced, options.console.say)
         base = moving_base(model, inputs.motions, steps)
         load, expand = with_base(base, model, reduced, load_g)
         observers = transient_observers(model, cases, expand, inputs, results, options)
@@ -159,7 +159,9 @@ def _modal(
     options.console.say(mode_table(modes))
     modes = with_residual_vectors(model, reduced, modes, load.pattern, options)
     ratio = modal_ratios(model.deck, model.subcase, modes.frequency_hz)
-    coupled = with_dynamic_input(model, in_modes(reduced, modes, ratio))
+    coupled = with_dynamic_input(
+        model, in_modes(reduced, modes, ratio), options.console.say
+    )
     start = [initial_state(model, reduced, x, options) for x in inputs.states]
     if coupled.direct is not None or any(case.nonlinear for case in cases):
         load, expand = with_base(base, model, coupled, inputs.load)

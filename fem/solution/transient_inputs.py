@@ -23,6 +23,7 @@ from fem.model.structure import Structure
 from fem.response.direct import TransientLoad
 from fem.solution.analysis_model import (
     AnalysisModel,
+    moving_extra_points,
 )
 from fem.solution.options import Options
 
@@ -112,7 +113,7 @@ def initial_state(
         return None
     rows = reduced.rows
     given = np.flatnonzero(state.any(axis=0))
-    known = np.union1d(rows, model.points.extra_dof)
+    known = np.union1d(rows, moving_extra_points(model))
     unused = [model.points.label(int(dof)) for dof in np.setdiff1d(given, known)]
     if unused:
         options.console.say(
@@ -142,5 +143,4 @@ def start_in_modes(
     own = np.zeros((len(given), modes.count))
     if start is not None:
         own = (reduced.mass @ start.T).T @ modes.shape
-    extra = model.points.extra_dof if model.dynamic_input is not None else []
-    return np.hstack([given[:, extra], own])
+    return np.hstack([given[:, moving_extra_points(model)], own])

@@ -197,6 +197,15 @@ def test_modes_do_not_know_of_it(solve):
     assert "K2PP, TFL, NONLINEAR: without effect in SOL 103" in found["said"]
 
 
+@pytest.mark.parametrize("sol", [108, 109, 111, 112])
+def test_extra_points_without_an_equation_rest(solve, sol):
+    alone, found = solve(sol, "", ""), solve(sol, "", "EPOINT,11\n")
+    assert "extra point 11: no row of TF" in found["said"]
+    part = "transient" if sol in (109, 112) else "frequency"
+    name = f"{part}/1/displacement"
+    np.testing.assert_array_equal(found[name], alone[name])
+
+
 def test_direct_input_sees_no_motion_of_the_base(solve):
     """Nastran takes what SPC holds out of it, moved or not; that is said."""
     bulk = "EPOINT,11\nTF,4,11,,1.\n,1,1,-1.\nRLOAD1,15,19,,,7,,DISP\nSPCD,19,1,1,1.\n"
@@ -209,7 +218,6 @@ def test_direct_input_sees_no_motion_of_the_base(solve):
 @pytest.mark.parametrize(
     ("case", "bulk", "message"),
     [
-        ("", "EPOINT,11\n", "extra point 11 has no equation"),
         ("TFL = 5", FILTER, r"TFL = 5: expected a set of TF: \[4\]"),
         ("TFL = 4", FILTER + "SPC1,1,0,11\n", "SPC 1: 11 is an extra point"),
         ("", FILTER + "CELAS2,9,1.,11,0,3,1\n", "CELAS2 9: 11 is an extra point"),
