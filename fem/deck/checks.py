@@ -235,7 +235,11 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected
                     f"{number} is not defined; expected a set of "
                     f"{', '.join(names[:3])}"
                 )
-        problems += _nested(deck, attribute)
+        nested = _nested(deck, attribute)
+        if attribute == "load":  # NX Nastran runs the deck pload4/cquad4 of pyNastran
+            notices += [f"warning: {text}; it loads nothing" for text in nested]
+        else:
+            problems += nested
         absent = _members(deck, attribute)
         if attribute in _MAY_BE_ABSENT:
             notices += [f"{text}; it constrains nothing" for text in absent]
@@ -247,7 +251,7 @@ def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected
 
 
 def _nested(deck: Deck, attribute: str) -> list[str]:
-    """Selected combinations of combinations, which Nastran does not take either."""
+    """Selected combinations of combinations: Nastran does not follow them."""
     problems = []
     chosen = [getattr(subcase, attribute) for subcase in deck.case_control]
     for name, (user, column, targets) in _COMBINED.items():
