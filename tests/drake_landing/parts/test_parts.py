@@ -293,7 +293,7 @@ def test_practices(
     assert (by.loc[HYBRID].error == 0).all()
     np.testing.assert_allclose(by.loc[RIGID].error, -0.5, rtol=1e-6)
     # Rigid: acceleration of the center from the total load at its peak.
-    center = by.loc[(STATIC, "center, z"), "value"]
+    center = by.loc[(STATIC, "centre, z"), "value"]
     assert center == pytest.approx(4e4 / structure.weight.total, rel=0.1)
     tip = by.loc[(STATIC, "right tip, z"), "value"]
     assert abs(tip) < abs(by.loc[(HYBRID, "right tip, z"), "value"])

@@ -149,7 +149,7 @@ angles = st.floats(-180, 180).map(lambda a: round(a, 1))
 
 
 @settings(
-    max_examples=15,
+    max_examples=6,
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
