@@ -21,6 +21,7 @@ from drake_landing.case.axes import rotation_AB
 from drake_landing.case.reading import load_case
 from drake_landing.landing.run import build_landing, fly
 from drake_landing.process.aircraft import prepare_aircraft
+from fem.errors import InputError
 
 PARTS = 5
 STEP = 5e-4  # s
@@ -78,7 +79,10 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="+", type=Path)
     cases = parser.parse_args().cases
-    print(markdown(pd.DataFrame([row for path in cases for row in rows(path)])))
+    try:
+        print(markdown(pd.DataFrame([row for path in cases for row in rows(path)])))
+    except InputError as error:
+        parser.error(str(error))
 
 
 if __name__ == "__main__":

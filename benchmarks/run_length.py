@@ -22,6 +22,7 @@ from drake_landing.case.schema import Case
 from drake_landing.parts.tables import component_table, root_histories
 from drake_landing.process.run import run_case
 from drake_landing.results.result import ProcessResult
+from fem.errors import InputError
 
 CASES = Path(__file__).resolve().parents[1] / "cases"
 DEFAULT = (CASES / "d150_con_50hz.yaml", CASES / "commuter/case.yaml")
@@ -108,7 +109,10 @@ def main() -> None:
     parser.add_argument("cases", nargs="*", type=Path, default=DEFAULT)
     parser.add_argument("--page", action="store_true", help="into docs/accuracy.md")
     arguments = parser.parse_args()
-    text = markdown(pd.DataFrame([dict(row(path)) for path in arguments.cases]))
+    try:
+        text = markdown(pd.DataFrame([dict(row(path)) for path in arguments.cases]))
+    except InputError as error:
+        parser.error(str(error))
     print(text)
     if arguments.page:
         put(DOCS / "accuracy.md", "length of a run", text)

@@ -61,8 +61,10 @@ def load_factors(deck: "Deck", sid: int) -> dict[int, float]:
     }
     if not known:
         absent = ", ".join(map(str, factors))
+        nested = not factors.keys().isdisjoint(deck.cards["LOAD"]["sid"].tolist())
+        what = "combines sets itself" if nested else "is not defined"
         raise InputError(
-            f"{deck.path}: load set {absent} is not defined"
+            f"{deck.path}: load set {absent} {what}"
             + (f" (LOAD {sid})" if sid not in factors else "")
         )
     return known

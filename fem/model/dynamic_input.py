@@ -87,7 +87,7 @@ def read_dynamic_input(
         except InputError as error:
             problems += [f"{deck.path}: {text}" for text in error.problems]
         found.append(total)
-    transfer = np.zeros(0)
+    transfer: list[sp.csr_matrix] = []
     try:
         transfer = _transfer(deck, points, subcase.tfl)
     except InputError as error:

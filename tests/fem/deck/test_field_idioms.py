@@ -139,6 +139,8 @@ def test_loads_that_combine_combinations_leave_them_out(read):
     told = "LOAD 7: set 5 combines sets itself, expected sets of FORCE"
     assert told in "".join(deck.notices)
     assert load_factors(deck, 7) == {1: 6.0}
+    with pytest.raises(InputError, match=r"load set 6 combines sets itself \(LOAD 5\)"):
+        load_factors(deck, 5)
 
 
 def test_sets_under_the_number_of_a_combination_are_combined(read):
