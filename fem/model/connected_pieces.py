@@ -21,7 +21,7 @@ def unconnected_pieces(
     blocks: Iterable[ElementBlock],
     dependence: sp.csr_matrix,
     m: Int64,
-    direct: sp.csr_matrix | None = None,
+    couplings: Iterable[sp.csr_matrix | None] = (),
 ) -> list[Int64]:
     """Grids and scalar points that hang together, the largest piece first.
 
@@ -29,7 +29,8 @@ def unconnected_pieces(
         points: the points.
         blocks: the elements.
         dependence, m: of the elimination: (m, g) and (m,).
-        direct: (g, g) stiffness from direct input.
+        couplings: (g, g) matrices of direct input; the amplitudes of a Craig-Bampton
+            reduction hang on the others by their mass alone.
 
     Returns:
         Ids of the points of each piece that holds an element, ascending.
@@ -49,8 +50,8 @@ def unconnected_pieces(
         ends.append((a[keep], b[keep]))
     coupled = dependence.tocoo()
     pairs = [(m[coupled.row], coupled.col)]
-    if direct is not None:
-        pairs.append((direct.tocoo().row, direct.tocoo().col))
+    for entries in (matrix.tocoo() for matrix in couplings if matrix is not None):
+        pairs.append((entries.row, entries.col))
     for row, column in pairs:
         a, b = (_point(dof.astype(np.int64), grids) for dof in (row, column))
         ends.append((a, b))

@@ -145,9 +145,12 @@ class FreeSet:
     @cached_property
     def pieces(self) -> list[Int64]:
         """Points of each piece of the model that nothing connects to the others."""
-        model, e = self.model, self.support.elimination
+        model, e, direct = self.model, self.support.elimination, self.model.direct
+        couplings = [direct.stiffness]
+        if model.deck.sol not in _WITHOUT_MOTION:
+            couplings += [direct.mass, direct.damping]
         return unconnected_pieces(
-            model.points, model.blocks, e.dependence, e.m, model.direct.stiffness
+            model.points, model.blocks, e.dependence, e.m, couplings
         )
 
     @cached_property

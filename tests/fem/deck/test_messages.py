@@ -86,6 +86,22 @@ def test_what_a_user_should_know_is_said(say, sol, case, bulk, words):
     assert words in text
 
 
+def test_amplitudes_that_mass_alone_couples_are_no_pieces_of_their_own(say):
+    """As in a Craig-Bampton reduction: stiffness on the diagonal, coupled masses."""
+    matrices = (
+        "SPOINT,9\nDMIG,KRED,0,6,1,0\nDMIG,KRED,9,0,,9,0,1.+6\n"
+        "DMIG,MRED,0,6,1,0\nDMIG,MRED,9,0,,9,0,1.\n,3,3,.5\n"
+        "CONM2,9,3,,9.\nEIGRL,1,,,2\n"
+    )
+    chosen = "METHOD=1\nSPC=1\nK2GG=KRED"
+    status, text = say(103, f"{chosen}\nM2GG=MRED", BAR + matrices)
+    assert status == 0, text
+    assert "pieces" not in text
+    status, text = say(103, chosen, BAR + matrices)
+    assert status == 0, text
+    assert "2 pieces that nothing connects" in text
+
+
 def test_options_without_effect_are_said(say):
     options = ("--envelope", "--ignore", "CBEAM3")
     status, text = say(103, "METHOD=1\nSPC=1", BAR + "EIGRL,1,,,3\n", *options)
