@@ -1,6 +1,7 @@
 """Cards as texts to the tables that their records describe."""
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -43,7 +44,8 @@ def make_tables(
             columns["card"] = [name] * len(columns["line"])
             pieces.setdefault(table_of(name), []).append(columns)
     return {
-        name: _frame(record, pieces.get(name, [])) for name, record in TABLES.items()
+        name: _frame(record, pieces[name]) if name in pieces else _without_rows(name)
+        for name, record in TABLES.items()
     }
 
 
@@ -126,6 +128,15 @@ def _frame(record: Card, pieces: list[dict[str, list]]) -> pd.DataFrame:
         columns["thru"] = np.empty(len(ranges), dtype=object)
         columns["thru"][:] = ranges
     return pd.DataFrame(columns)
+
+
+@cache
+def _without_rows(name: str) -> pd.DataFrame:
+    """The table of a card that a deck does not have: most of them, in every deck.
+
+    Decks share it, as nothing changes a table in place.
+    """
+    return _frame(TABLES[name], [])
 
 
 def _thru(piece: dict[str, list]) -> list:

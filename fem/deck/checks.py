@@ -1,6 +1,7 @@
 """Checks of a whole deck: references, duplicates, selected sets, coordinate systems."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -55,11 +56,14 @@ def _duplicates(cards: Tables) -> list[str]:
     """Ids that are given more than once."""
     groups: dict[str, list[str]] = {}
     for name, card in TABLES.items():
-        if card.ids:
+        if card.ids and len(cards[name]):
             groups.setdefault(name if card.ids == "own" else card.ids, []).append(name)
     problems: list[str] = []
     for names in groups.values():
         column = key_of(names[0])
+        found = ids(cards, names, column)
+        if len(np.unique(found)) == len(found):
+            continue
         table = pd.concat(
             [cards[n][[column, "file", "line"]].assign(card=n) for n in names]
         )
@@ -125,7 +129,7 @@ def _references(tables: Tables) -> list[str]:
     problems: list[str] = []
     for name, card in TABLES.items():
         for item in card.columns.values():
-            if item.targets:
+            if item.targets and len(tables[name]):
                 shown = _used_only(tables, name)
                 if (name, item.name) == ("DMIG", "colids"):
                     shown = {**tables, name: _with_freedoms(tables[name])}
@@ -144,16 +148,22 @@ def _with_freedoms(table: pd.DataFrame) -> pd.DataFrame:
 
 def _used_only(tables: Tables, name: str) -> Tables:
     """Tables with a property's rows that elements use: others are not looked at."""
-    users = [
-        card
-        for card, record in TABLES.items()
-        if (pid := record.columns.get("pid")) and name in pid.targets
-    ]
+    users = _users(name)
     if not users:
         return tables
     table = tables[name]
     used = table["pid"].isin(ids(tables, users, "pid"))
     return {**tables, name: table.loc[used].reset_index(drop=True)}
+
+
+@cache
+def _users(name: str) -> Sequence[str]:
+    """Elements that may have a property of this card."""
+    return [
+        card
+        for card, record in TABLES.items()
+        if (pid := record.columns.get("pid")) and name in pid.targets
+    ]
 
 
 def _what(item: Field) -> str:
@@ -255,9 +265,9 @@ def _nested(deck: Deck, attribute: str) -> list[str]:
     problems = []
     chosen = [getattr(subcase, attribute) for subcase in deck.case_control]
     for name, (user, column, targets) in _COMBINED.items():
-        if user != attribute:
-            continue
         table = deck.cards[name]
+        if user != attribute or table.empty:
+            continue
         own = set(table["sid"].tolist()) - set(ids(deck.cards, targets, "sid").tolist())
         table = table[table["sid"].isin(chosen)]
         problems += [
@@ -284,8 +294,8 @@ def _members(deck: Deck, attribute: str) -> list[str]:
     problems: list[str] = []
     for name, (user, column, targets) in _COMBINED.items():
         table = deck.cards[name]
-        table = table[table["sid"].isin(chosen)].reset_index(drop=True)
-        if user == attribute:
+        if user == attribute and len(table):
+            table = table[table["sid"].isin(chosen)].reset_index(drop=True)
             known = np.append(ids(deck.cards, targets, "sid"), deck.cards[name]["sid"])
             what = f"{targets[0]} set"
             problems += _missing({name: table}, name, column, known, what)

@@ -1,11 +1,12 @@
 """What is taken out of the tables before they are checked, each with a notice."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
+from fem.arrays import Int64
 from fem.deck.control.subcase import Subcase
 from fem.deck.records import CARDS, TABLES, targets_of
 from fem.deck.text.lexer import RawCard
@@ -50,6 +51,8 @@ def drop_unused_equations(
     Nastran looks at the sets that are selected only.
     """
     table = tables["MPC"]
+    if table.empty:
+        return
     chosen = {case.mpc for case in subcases}
     added = tables["MPCADD"]
     for sid, sets in zip(added["sid"].tolist(), added["sets"]):
@@ -66,14 +69,19 @@ def drop_unused_equations(
         tables["MPC"] = table[~unused].reset_index(drop=True)
 
 
-def ids(tables: Mapping[str, pd.DataFrame], names: Sequence[str], column: str):
+def ids(tables: Mapping[str, pd.DataFrame], names: Iterable[str], column: str) -> Int64:
     """Integers of one column of several tables."""
-    return np.concatenate([tables[name][column].to_numpy(np.int64) for name in names])
+    found = [
+        tables[name][column].to_numpy(np.int64) for name in names if len(tables[name])
+    ]
+    return np.concatenate([np.zeros(0, np.int64), *found])
 
 
 def _drop_repetitions(tables: Tables, name: str, notices: list[str]) -> None:
     """Points and frames may be given twice if both cards say the same."""
     table = tables[name]
+    if table.empty:
+        return
     compared = table.drop(columns=["file", "line"])
     if "ps" in compared:  # "0" and blank constrain nothing
         compared = compared.assign(ps=compared["ps"].replace("0", ""))
@@ -89,7 +97,7 @@ def _add_scalar_points(tables: Tables, notices: list[str]) -> None:
     found: dict[int, tuple[str, int]] = {}
     for name in SCALAR_ELEMENTS:
         table = tables[name]
-        for end in "12":
+        for end in "12" if len(table) else "":
             used = table[(table[f"c{end}"] == 0) & (table[f"g{end}"] > 0)]
             used = used[~used[f"g{end}"].isin(known)]
             for point, file, line in zip(used[f"g{end}"], used["file"], used["line"]):
@@ -157,13 +165,12 @@ def _unroll_elements(
 
 def _drop_idle_directions(tables: Tables, notices: list[str]) -> None:
     """Absent systems as material directions of sheets that are alike in all of them."""
-    sheet, isotropic = tables["PSHELL"], {0, -1, *tables["MAT1"]["mid"].tolist()}
-    alike = sheet[[f"mid{k}" for k in range(1, 5)]].isin(isotropic).all(axis=1)
-    pids = sheet["pid"][alike]
     for name in _WITH_DIRECTION:
         table = tables[name]
+        if not (table["mcid"] > 0).any():
+            continue
         idle = (table["mcid"] > 0) & ~table["mcid"].isin(tables["CORD"]["cid"])
-        idle &= table["pid"].isin(pids)
+        idle &= table["pid"].isin(_isotropic_sheets(tables))
         if idle.any():
             absent = sorted(set(table["mcid"][idle].tolist()))
             shown = ", ".join(map(str, absent[:8])) + (", ..." * (len(absent) > 8))
@@ -171,10 +178,17 @@ def _drop_idle_directions(tables: Tables, notices: list[str]) -> None:
                 f"{name}: coordinate systems {shown} of MCID are not defined; their "
                 "materials are isotropic, which need none"
             )
-            table.loc[idle, "mcid"] = -1
+            tables[name] = table.assign(mcid=table["mcid"].mask(idle, -1))
 
 
-def _element_ids(cards: Sequence[RawCard]) -> npt.NDArray[np.int64]:
+def _isotropic_sheets(tables: Tables) -> pd.Series:
+    """Ids of the PSHELL whose materials are isotropic, all of them."""
+    sheet, isotropic = tables["PSHELL"], {0, -1, *tables["MAT1"]["mid"].tolist()}
+    alike = sheet[[f"mid{k}" for k in range(1, 5)]].isin(isotropic).all(axis=1)
+    return sheet["pid"][alike]
+
+
+def _element_ids(cards: Sequence[RawCard]) -> Int64:
     found = set()
     for card in cards:
         try:
@@ -184,15 +198,13 @@ def _element_ids(cards: Sequence[RawCard]) -> npt.NDArray[np.int64]:
     return np.array(sorted(found), dtype=np.int64)
 
 
-def _drop_loads_on(
-    eids: npt.NDArray[np.int64], tables: Tables, notices: list[str]
-) -> None:
+def _drop_loads_on(eids: Int64, tables: Tables, notices: list[str]) -> None:
     """Loads on ignored elements go with them."""
     for name, column, targets in _loaded_elements():
         table = tables[name]
-        lost = eids[~np.isin(eids, ids(tables, targets, "eid"))]
-        if table.empty or not len(lost):
+        if table.empty or not len(eids):
             continue
+        lost = eids[~np.isin(eids, ids(tables, targets, "eid"))]
         keep = np.array([not np.isin(value, lost).any() for value in table[column]])
         if not keep.all():
             tables[name] = table[keep].reset_index(drop=True)
@@ -200,10 +212,14 @@ def _drop_loads_on(
             notices.append(f"{count} {name} on ignored elements are left out")
 
 
-def _loaded_elements() -> Iterator[tuple[str, str, list[str]]]:
+@cache
+def _loaded_elements() -> Sequence[tuple[str, str, list[str]]]:
     """Loads, their columns of elements, and the tables that these may be in."""
-    for name, card in TABLES.items():
-        for item in card.columns.values():
-            targets = [t for word in item.targets for t in targets_of(word)]
-            if card.load and targets and all(CARDS[t].element for t in targets):
-                yield name, item.name, targets
+    return [
+        (name, item.name, targets)
+        for name, card in TABLES.items()
+        for item in card.columns.values()
+        if card.load
+        and (targets := [t for word in item.targets for t in targets_of(word)])
+        and all(CARDS[t].element for t in targets)
+    ]

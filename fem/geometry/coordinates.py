@@ -177,7 +177,7 @@ def resolve(cord: pd.DataFrame, grid: pd.DataFrame) -> tuple[Frames, Float64]:
             there, or its three points lie on a line; all such systems are named.
     """
     known: dict[int, Frame] = {0: BASIC}
-    pending = list(cord.to_dict("records"))
+    pending = list(cord.to_dict("records")) if len(cord) else []
     cp = grid["cp"].to_numpy(np.int64)
     x = grid[["x1", "x2", "x3"]].to_numpy(np.float64)
     row = dict(zip(grid["id"].tolist(), range(len(grid)), strict=True))
