@@ -11,6 +11,7 @@ from fem.elements.connectors.reader import connector_notices
 from fem.elements.lines.beam_reader import beam_notices
 from fem.elements.nonstructural_mass import add_nonstructural_mass
 from fem.elements.scalars.gap import gap_notices
+from fem.elements.shells.material_axes import steep_systems
 from fem.elements.solids.notices import solid_notices
 from fem.errors import InputError
 from fem.geometry.points import Points
@@ -64,12 +65,13 @@ def read_elements(deck: "Deck", points: Points, *, nsm: int = 0) -> list[Element
     return add_nonstructural_mass(deck, blocks, nsm)
 
 
-def element_notices(deck: "Deck") -> list[str]:
-    """What the cards ask for and the elements do not model."""
+def element_notices(deck: "Deck", points: Points) -> list[str]:
+    """What the cards ask for and the elements do not model, or take another way."""
     return [
         *beam_notices(deck),
         *strength_notices(deck),
         *solid_notices(deck),
         *gap_notices(deck),
         *connector_notices(deck),
+        *steep_systems(deck, points),
     ]

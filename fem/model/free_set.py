@@ -160,7 +160,7 @@ class FreeSet:
         lines = [
             *deck.notices,
             *axis_notices(deck, self.model.points),
-            *element_notices(deck),
+            *element_notices(deck, self.model.points),
             *quality_notices(self.model.blocks),
             *describe_pieces(self.pieces),
         ]

@@ -160,7 +160,7 @@ def _value(row: pd.Series, name: str) -> float:
 def _mat1(row: pd.Series) -> Elasticity:
     given = [np.array([float(row[k])]) for k in ("e", "g", "nu")]
     e, g, nu = (float(v[0]) for v in complete(*given))
-    check_moduli(pd.DataFrame([row]))
+    check_moduli(pd.DataFrame([row]), poisson=True)
     if not (-1.0 < nu < 1.0):
         raise InputError(
             f"{where('MAT1', row)}: Poisson's ratio {nu:g} (from E {e:g} and G {g:g} "

@@ -50,17 +50,22 @@ def complete(e: Float64, g: Float64, nu: Float64) -> tuple[Float64, Float64, Flo
     return np.nan_to_num(e_full), np.nan_to_num(g_full), np.nan_to_num(nu_full)
 
 
-def check_moduli(mat: pd.DataFrame) -> None:
+def check_moduli(mat: pd.DataFrame, *, poisson: bool) -> None:
     """Refuse MAT1 cards (n rows) that are no elastic material.
+
+    Args:
+        mat: the cards.
+        poisson: ν itself counts; else E and G alone, and ν only where one is blank:
+            bending and torsion of bars need not fit together.
 
     Raises:
         InputError: E or G below zero; a given ν that is not between -1 and 1, or not
             a number; all of them. (Bars and plane stress know no other limit; solids
-            have theirs at 0.5. A ν that follows from E and G belongs to bars, whose
-            bending and torsion need not fit together.)
+            have theirs at 0.5.)
     """
     given = mat["nu"].to_numpy(float)
-    wrong_nu = ~np.isnan(given) & ~((given > -1.0) & (given < 1.0))
+    counts = poisson | mat[["e", "g"]].isna().any(axis=1).to_numpy()
+    wrong_nu = counts & ~np.isnan(given) & ~((given > -1.0) & (given < 1.0))
     problems = [
         f"{where('MAT1', mat.iloc[i])}: NU {given[i]:g}, expected between -1 and 1"
         for i in np.flatnonzero(wrong_nu)
@@ -76,15 +81,17 @@ def check_moduli(mat: pd.DataFrame) -> None:
         raise InputError(problems)
 
 
-def isotropic(deck: "Deck", rows: pd.DataFrame, card: str) -> Isotropic:
-    """MAT1 of each row's `mid`.
+def isotropic(
+    deck: "Deck", rows: pd.DataFrame, card: str, *, poisson: bool = False
+) -> Isotropic:
+    """MAT1 of each row's `mid`; `poisson`: ν itself counts, see `check_moduli`.
 
     Raises:
         InputError: materials that are not defined as MAT1, all of them.
     """
     mat = refer(rows, card, "mid", table(deck, "MAT1"), "MAT1")
     e, g, nu = complete(*(mat[c].to_numpy(float) for c in ("e", "g", "nu")))
-    check_moduli(mat)
+    check_moduli(mat, poisson=poisson)
     return Isotropic(
         e=e,
         g=g,

@@ -12,6 +12,7 @@ from fem.deck.records import CARDS
 from fem.deck.references import column, table, where
 from fem.elements.shells.convex import bad_facets
 from fem.elements.shells.curved import SURFACES, CurvedShell, material_angle
+from fem.elements.shells.material_axes import without_projection
 from fem.elements.shells.quadratic_surface import Surface, base
 from fem.elements.shells.shell_reader import check_properties, corner_thickness
 from fem.errors import InputError
@@ -81,7 +82,7 @@ def _block(
     thickness = corner_thickness(rows, card, used, which, corners)
     theta, towards = _material(points, rows, nodes)
     center = base(surface, nodes, surface.results[:1])
-    normal = _is_normal(towards, center.normal[:, 0])
+    normal = without_projection(towards, center.normal[:, 0])
     # Isotropic elements take the first tangent, which changes nothing.
     isotropic = np.array([p.isotropic for p in used])[which]
     towards[normal & isotropic] = np.nan
@@ -110,11 +111,6 @@ def _block(
         towards=towards,
         oblique=_oblique(points, at, base(surface, nodes, surface.nodes).normal),
     )
-
-
-def _is_normal(towards: Float64, normal: Float64) -> Bool:
-    """(e,) whether directions (e, 3) have no part in the surface; NaN has one."""
-    return np.abs(np.einsum("ei,ei->e", towards, normal)) > 1.0 - 1e-12
 
 
 def _oblique(points: Points, at: Int64, normal: Float64) -> Bool:

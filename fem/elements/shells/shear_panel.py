@@ -356,7 +356,7 @@ def read_cshear(deck: "Deck", points: Points) -> list[ShearPanel]:
     if rows.empty:
         return []
     properties = refer(rows, "CSHEAR", "pid", table(deck, "PSHEAR"), "PSHEAR")
-    material = isotropic(deck, properties, "PSHEAR")
+    material = isotropic(deck, properties, "PSHEAR", poisson=True)
     at = points.rows(rows[[f"g{k}" for k in range(1, 5)]].to_numpy(np.int64))
     corners = points.xyz[at]
     thickness = column(properties, "t")

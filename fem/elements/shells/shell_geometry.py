@@ -76,6 +76,17 @@ def element_normals(corners: Float64) -> Float64:
     return unit(np.cross(*_spanning(corners)))
 
 
+def corner_normals(corners: Float64) -> Float64:
+    """(e, n, 3) unit normals of the two edges that meet in each corner.
+
+    That of the element where the edges are in line.
+    """
+    edge = np.roll(corners, -1, axis=1) - corners
+    own = unit(np.cross(np.roll(edge, 1, axis=1), edge))
+    straight = ~own.any(axis=2, keepdims=True)
+    return np.where(straight, element_normals(corners)[:, None], own)
+
+
 def _spanning(corners: Float64) -> tuple[Float64, Float64]:
     if corners.shape[1] == 4:
         return corners[:, 1] - corners[:, 3], corners[:, 2] - corners[:, 0]
@@ -110,8 +121,7 @@ def facet(
 
 def _slopes(corners: Float64, axes: Float64, normals: Float64 | None) -> Float64:
     """(e, n, 2) slopes of the corner normals against the element's z axis."""
-    edge = np.roll(corners, -1, axis=1) - corners
-    own = unit(np.cross(np.roll(edge, 1, axis=1), edge))
+    own = corner_normals(corners)
     if normals is not None:
         own = np.where(normals.any(axis=2)[..., None], normals, own)
     local = own @ axes.transpose(0, 2, 1)

@@ -1,4 +1,10 @@
-"""Normals at the grids of shells (PARAM SNORM, SNORM cards)."""
+"""Normals at the grids of shells (PARAM SNORM, SNORM cards).
+
+MSC and NX Nastran take the mean of the normals of the corners that meet in a grid:
+under the displacements of a foreign airframe moments balance so at grids whose corners
+are within 20 degrees of the mean and whose elements are not, and at flat neighbours of
+warped elements; a single warped element bends about its corners' normals.
+"""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -7,7 +13,7 @@ import numpy as np
 
 from fem.arrays import Float64, Int64
 from fem.deck.references import table, where
-from fem.elements.shells.shell_geometry import element_normals, unit
+from fem.elements.shells.shell_geometry import corner_normals, unit
 from fem.errors import InputError
 
 if TYPE_CHECKING:
@@ -25,11 +31,11 @@ def grid_normals(
     limit_deg: float,
     given: tuple[Int64, Float64] | None = None,
 ) -> Float64:
-    """(g, 3) mean normals of the shells at each grid; zero where there is none.
+    """(g, 3) mean normals of the corners at each grid; zero where there is none.
 
-    A grid has a normal where that of each adjacent element is within `limit_deg` of
-    their mean. Elements of opposite orientation count alike: the normal is that of the
-    line, its sense that of one of them.
+    A grid has a normal where that of each corner there is within `limit_deg` of their
+    mean, which counts each corner once. Elements of opposite orientation count alike:
+    the normal is that of the line, its sense that of one of them.
 
     Args:
         xyz: (g, 3) grids in the basic frame.
@@ -41,9 +47,7 @@ def grid_normals(
     if limit_deg <= 0.0 or not connections:
         return total
     at = np.concatenate([c.ravel() for c in connections])
-    each = np.concatenate(
-        [np.repeat(element_normals(xyz[c]), c.shape[1], axis=0) for c in connections]
-    )
+    each = np.concatenate([corner_normals(xyz[c]).reshape(-1, 3) for c in connections])
     first = np.zeros_like(xyz)
     first[at[::-1]] = each[::-1]
     sense = np.where(np.einsum("ij,ij->i", each, first[at]) < 0.0, -1.0, 1.0)

@@ -8,6 +8,7 @@ import pandas as pd
 from fem.arrays import Bool, Float64, Int64
 from fem.deck.references import column, table, where
 from fem.elements.shells.convex import bad_facets
+from fem.elements.shells.material_axes import without_projection
 from fem.elements.shells.shell import Shell
 from fem.elements.shells.shell_geometry import facet
 from fem.elements.shells.shell_normals import deck_normals
@@ -123,8 +124,8 @@ def _material_angle(
     if given.any():
         center = xyz[given].mean(axis=1)
         direction[given] = points.frames.triads(mcid[given], center)[:, :, 0]
-    x, y, z = np.einsum("eij,ej->ie", axes, direction)
-    normal = given & (np.hypot(x, y) <= 1e-6 * np.abs(z))
+    x, y, _ = np.einsum("eij,ej->ie", axes, direction)
+    normal = given & without_projection(direction, axes[:, 2])
     side = xyz[normal, 1] - xyz[normal, 0]
     x[normal], y[normal], _ = np.einsum("eij,ej->ie", axes[normal], side)
     normal &= ~isotropic

@@ -312,7 +312,7 @@ def _block(
             for k in bad[:10]
         )
     values = refer(rows, card, "pid", table(deck, "PPLANE"), "PPLANE")
-    material = isotropic(deck, values, "PPLANE")
+    material = isotropic(deck, values, "PPLANE", poisson=True)
     within = [_elasticity(e, nu, card) for e, nu in zip(material.e, material.nu)]
     strain = card[5] == "N"
     return Slice(

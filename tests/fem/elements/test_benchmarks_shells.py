@@ -101,7 +101,7 @@ def test_twisted_beam():
     reference = [0.005424, 0.001754]
     coarse = twisted_beam(1) / reference
     fine = twisted_beam(4) / reference
-    np.testing.assert_allclose(coarse, [0.9949, 0.9887], atol=1e-3)
+    np.testing.assert_allclose(coarse, [0.9937, 0.9887], atol=1e-3)
     np.testing.assert_allclose(fine, 1.0, atol=3e-3)
     triangular = twisted_beam(4, corners=3) / reference
     np.testing.assert_allclose(triangular, [0.996, 0.975], atol=3e-3)
@@ -110,12 +110,12 @@ def test_twisted_beam():
 def test_thin_twisted_beam_does_not_lock():
     """Thickness 0.0032 (Belytschko 1989): 5256e-6 and 1294e-6 for a load of 1e-6.
 
-    What is missing on 12 x 2 is the mesh's: the error falls to a sixth on 24 x 4, and
-    is the same for any share of the residual flexibility that the twist takes.
+    Normals at the grids that are means of elements instead of corners cost 2.4 % in
+    plane on 12 x 2: those at the edges are a quarter of an element off.
     """
     reference = np.array([5256e-6, 1294e-6])
     coarse, fine = (twisted_beam(n, thickness=0.0032) * 1e-6 for n in (1, 2))
-    np.testing.assert_allclose(coarse / reference, [0.978, 0.988], atol=2e-3)
+    np.testing.assert_allclose(coarse / reference, [1.002, 0.988], atol=2e-3)
     np.testing.assert_allclose(fine / reference, [0.997, 0.996], atol=2e-3)
 
 

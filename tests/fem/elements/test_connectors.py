@@ -101,7 +101,7 @@ def test_a_gap_is_as_at_the_start(model, gap, along, across):
     assert along_it @ stiffness @ along_it == pytest.approx(along)
     assert over_it @ stiffness @ over_it == pytest.approx(across)
     assert block.forces().matrix[0, 0] @ along_it == pytest.approx(-along)
-    assert "neither opens nor closes" in element_notices(made.deck)[-1]
+    assert "neither opens nor closes" in element_notices(made.deck, made.points)[-1]
 
 
 def test_laminates_of_one_material_are_those_ply_by_ply(model):

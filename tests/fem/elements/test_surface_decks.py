@@ -6,6 +6,8 @@ import pytest
 from fem.deck.reader import read_deck
 from fem.elements.quality import quality_notices, quality_table
 from fem.elements.registry import read_elements
+from fem.elements.shells.material_axes import steep_systems
+from fem.elements.shells.shell_normals import grid_normals
 from fem.errors import InputError
 from fem.model.points import read_points
 
@@ -73,6 +75,53 @@ def test_theta_and_material_system_mean_the_same(blocks, card):
     np.testing.assert_allclose(turned, mcid, atol=1e-5 * np.abs(turned).max())
     other = stiffness(blocks, f"{card},0.\n{pcomp}")
     assert np.abs(other - turned).max() > 1e-2 * np.abs(turned).max()
+
+
+@pytest.mark.parametrize("card", ["CQUAD4,1,1,1,2,3,4,7", "CTRIA3,1,1,1,2,3,7"])
+def test_a_system_just_off_the_normal_is_projected_all_the_same(tmp_path, card):
+    """x axis (3e-8, 4e-8, 1): the projection is at the angle of (3, 4)."""
+    lamina = ORTHO + "PCOMP,1\n,8,.001,0.,,8,.001,90.,,8,.001,0.\n"
+    system = "CORD2R,7,,0.,0.,0.,-4.,3.,0.\n,3.-8,4.-8,1.\n"
+    path = tmp_path / "a.bdf"
+    path.write_text(f"BEGIN BULK\n{SQUARE}{card}\n{lamina}{system}ENDDATA\n")
+    deck = read_deck(path)
+    points = read_points(deck)
+    (block,) = read_elements(deck, points)
+    assert np.tan(block.angle[0] + _of_x(block)) == pytest.approx(4 / 3)
+    (said,) = steep_systems(deck, points)
+    assert f"{card[:6]} 1: 5.0e-08 rad" in said
+
+
+def _of_x(block):
+    """Angle of the element x axis in the plane of the deck."""
+    x, y, _ = block.shape.axes[0, 0]
+    return np.arctan2(y, x)
+
+
+def test_normals_at_grids_are_those_of_corners():
+    """Two warped quadrilaterals: edges about a grid, each corner once."""
+    xyz = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0.3],
+                    [0, 1, 0.2], [1, 1, 0], [2, 1, 0]], float)  # fmt: skip
+    normals = grid_normals(xyz, [np.array([[0, 1, 4, 3], [1, 2, 5, 4]])], 20.0)
+    own = np.cross([1, 0, 0], [0, 1, 0.2])
+    np.testing.assert_allclose(normals[0], own / np.linalg.norm(own))
+    left, right = np.array([0, 0, 1.0]), np.cross([1, 0, 0.3], [0, 1, 0])
+    mean = left + right / np.linalg.norm(right)
+    np.testing.assert_allclose(normals[1], mean / np.linalg.norm(mean))
+
+
+def test_a_fold_is_judged_by_corners():
+    """Four sheets whose elements are 25 degrees off their mean, their corners 16."""
+    y, z = np.cos(np.radians(16)), np.sin(np.radians(16))
+    row = np.array([[-1.0, 0, 0], [0, 0, 0], [1.0, 0, 0]])
+    outer = [0, y, -z]
+    # The far corners hang lower: elements are steeper than their corners at the ridge.
+    hang = np.array([[0, 0, -0.3], [0, 0, 0], [0, 0, -0.3]])
+    left, right = row + outer + hang, row + outer * np.array([1, -1, 1]) + hang
+    xyz = np.concatenate([right, row, left])
+    quads = np.array([[0, 1, 4, 3], [1, 2, 5, 4], [3, 4, 7, 6], [4, 5, 8, 7]])
+    np.testing.assert_allclose(grid_normals(xyz, [quads], 20.0)[4], [0, 0, 1.0])
+    assert not grid_normals(xyz, [quads], 15.0)[4].any()
 
 
 def test_symmetric_laminate_options(blocks):

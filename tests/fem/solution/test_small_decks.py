@@ -196,6 +196,12 @@ def test_matrices_in_sums_with_factors(solve):
     assert file["static/1/displacement"][0, 0] == pytest.approx(0.125)
 
 
+def test_poisson_ratio_of_rods_with_both_moduli_does_not_count(solve):
+    bulk = ROD.replace("1.0+7,,.3", "1.0+7,5.+5,16.7")
+    file = solve(101, "SPC = 5\nLOAD = 9", bulk)
+    assert file["static/1/displacement"][1, 0] == pytest.approx(2e-4)
+
+
 def test_free_fields_go_on_beyond_the_eighth(solve):
     bulk = ROD.replace(
         "SPC1,5,23456,12\n", "SPC1,5,23456,12,12,12,12,12,12,12,12,12,12,12\n"
