@@ -5,7 +5,8 @@ deck can be repaired in one pass. Command lines print it and exit with status 2.
 """
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from difflib import get_close_matches
 
 _FEW = 3  # notices of one kind that are told one by one
@@ -31,6 +32,35 @@ class InputError(ValueError):
         if more := len(self.problems) - len(shown):
             shown.append(f"... and {more:,} more problems")
         super().__init__("\n".join(shown))
+
+
+class Problems(list[str]):
+    """Problems of several readers, gathered so that all are reported at once.
+
+    problems = Problems()
+    for row in rows:
+        with problems.gathered(where("MPC", row)):
+            equations.append(read(row))
+    problems.report()
+    """
+
+    @contextmanager
+    def gathered(self, place: str = "") -> Iterator[None]:
+        """Append the problems of an `InputError`, each after "place: ", and go on.
+
+        What follows the faulty line of the block is passed over.
+        """
+        try:
+            yield
+        except InputError as error:
+            self += (
+                [f"{place}: {p}" for p in error.problems] if place else error.problems
+            )
+
+    def report(self) -> None:
+        """Raise an InputError of all of them, if there are any."""
+        if self:
+            raise InputError(self)
 
 
 def _printable(text: str) -> str:

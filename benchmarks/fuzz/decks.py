@@ -12,21 +12,10 @@ from fem.deck.reader import read_deck
 from fem.geometry.points import Points
 from fem.model.points import read_points
 from fem.solution.equilibrium import UNBALANCED
-from tests.fem.mixed_structure import CONTROL, deck, plain
+from tests.fem.mixed_structure import every_solution
 from tests.fem.mutations import mutate
 
 _TESTS = Path(__file__).parents[2] / "tests"
-_TRANSIENT = """\
-SUBCASE 3
-ANALYSIS=DTRAN
-DLOAD=9
-TSTEP=8
-BEGIN BULK
-TLOAD1,9,3,,,7
-TABLED1,7
-,0.,0.,.01,1.,.02,0.,ENDT
-TSTEP,8,20,.001
-"""
 
 
 def seeds(folder: Path) -> list[Path]:
@@ -35,8 +24,7 @@ def seeds(folder: Path) -> list[Path]:
     Args:
         folder: for them.
     """
-    mixed = deck(plain()).replace("BEGIN BULK\n", _TRANSIENT)
-    mixed = mixed.replace("ESE=ALL", "ESE=ALL\nOLOAD=ALL")
+    mixed = every_solution()
     (folder / "mixed.bdf").write_text(mixed)
     control, bulk = mixed.split("BEGIN BULK\n")
     (folder / "bulk.inc").write_text(bulk)
@@ -44,7 +32,6 @@ def seeds(folder: Path) -> list[Path]:
     including.write_text(f"{control}BEGIN BULK\nINCLUDE 'bulk.inc'\nENDDATA\n")
     aircraft = (_TESTS / "drake_landing" / "tiny_aircraft.bdf").read_text()
     (folder / "aircraft.bdf").write_text(aircraft)
-    assert CONTROL.splitlines()[0] in mixed
     return [folder / name for name in ("mixed.bdf", "mixed.bdf", "including.bdf")] + [
         folder / "aircraft.bdf"
     ]

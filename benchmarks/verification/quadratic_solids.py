@@ -261,7 +261,7 @@ def layered_bricks() -> list[Row]:
     ]
 
 
-_RINGS = """\
+RINGS = """\
 CTRIAX6,5301,1,5301,5302,5303,5304,5305,5306
 ,30.
 CTRIAX6,5311,1,5311,5312,5313,5314,5315
@@ -286,7 +286,7 @@ MAT1,1,1.,.8,.1"""
 
 def rings_under_pressure() -> list[Row]:
     """Two CTRIAX6, one without a mid-side, material turned, E, G and nu at odds."""
-    ours = run(Bulk(_RINGS).deck(101, "SPC = 1\nLOAD = 2\nDISP = ALL\nSTRESS = ALL"))
+    ours = run(Bulk(RINGS).deck(101, "SPC = 1\nLOAD = 2\nDISP = ALL\nSTRESS = ALL"))
     u, at = ours["static/1/displacement"], ours["grid_id"].tolist()
     table = "static/1/element_stress/CTRIAX6"
     figures = [

@@ -26,7 +26,7 @@ from drake_landing.process.aircraft import prepare_aircraft
 from drake_landing.process.run import run_case
 from drake_landing.progress import reporter, told_when_interrupted
 from drake_landing.terminal import show
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.files.folders import claim
 
 
@@ -120,19 +120,17 @@ def _airframes(cases: Sequence[Case]) -> Iterator[str]:
         InputError: of all airframes.
     """
     distinct = {case.airframe.model_dump_json(): case for case in reversed(cases)}
-    problems: list[str] = []
+    problems = Problems()
     with TemporaryDirectory() as folder:
         for i, case in enumerate(reversed(distinct.values())):
-            try:
+            with problems.gathered():
                 aircraft = prepare_aircraft(case, Path(folder, str(i)))
                 mass = loaded(aircraft.structure(), aircraft.gears).mass
-            except InputError as error:
-                problems += error.problems
-                continue
-            name = case.airframe.mass_case or aircraft.name
-            yield f"  {'' if i else 'airframes':<12}{name}, {mass:,.0f} kg with gears"
-    if problems:
-        raise InputError(problems)
+                name = case.airframe.mass_case or aircraft.name
+                yield (
+                    f"  {'' if i else 'airframes':<12}{name}, {mass:,.0f} kg with gears"
+                )
+    problems.report()
 
 
 def _short(value: object) -> str:

@@ -238,7 +238,29 @@ def _bodies_or_their_fields(schema: dict[str, Any]) -> None:
     schema["anyOf"] = [{"required": ["bodies"]}, {"required": list(FIELDS)}]
 
 
-class TelescopicGear(LandingGear):
+Rake = Annotated[
+    float,
+    Field(
+        gt=-45,
+        lt=45,
+        description="angle of the strut axis from the up axis, about the lateral axis; "
+        "positive: the lower end lies further forward",
+    ),
+]
+
+
+class OneAxleGear(LandingGear):
+    """What gears with one axle have in common."""
+
+    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
+
+    @property
+    def axles(self) -> tuple[Vector3, ...]:
+        """The one axle."""
+        return (self.axle,)
+
+
+class TelescopicGear(OneAxleGear):
     """A piston with one axle that slides in the fitting."""
 
     positions: ClassVar[tuple[str, ...]] = ("axle",)
@@ -251,14 +273,7 @@ class TelescopicGear(LandingGear):
         exclude=True,  # read, it has become the fields that it stands for
         description=f"a model file in place of {', '.join(FIELDS)}; default none",
     )
-    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
-    rake_deg: float = Field(
-        default=0.0,
-        gt=-45,
-        lt=45,
-        description="angle of the strut axis from the up axis, about the lateral axis; "
-        "positive: the lower end lies further forward",
-    )
+    rake_deg: Rake = 0.0
     piston: RigidPart = Field(description="piston, axle, brake stators; no wheels")
 
     @model_validator(mode="before")
@@ -269,17 +284,12 @@ class TelescopicGear(LandingGear):
         return with_bodies(data, info.context)
 
     @property
-    def axles(self) -> tuple[Vector3, ...]:
-        """The one axle."""
-        return (self.axle,)
-
-    @property
     def moving_parts(self) -> dict[str, RigidPart]:
         """The piston."""
         return {"piston": self.piston}
 
 
-class LeveredGear(LandingGear):
+class LeveredGear(OneAxleGear):
     """An arm with one axle that pivots on the fitting about the lateral axis."""
 
     positions: ClassVar[tuple[str, ...]] = (
@@ -290,7 +300,6 @@ class LeveredGear(LandingGear):
     )
 
     kind: Literal["levered"] = "levered"
-    axle: Vector3 = Field(description="middle of the axle in B, gear extended, m")
     pivot: Vector3 = Field(
         description=f"of the arm on the fitting, in B, m; {_PIVOT_AXES}"
     )
@@ -312,11 +321,6 @@ class LeveredGear(LandingGear):
         return self
 
     @property
-    def axles(self) -> tuple[Vector3, ...]:
-        """The one axle."""
-        return (self.axle,)
-
-    @property
     def moving_parts(self) -> dict[str, RigidPart]:
         """The arm."""
         return {"arm": self.arm}
@@ -336,13 +340,7 @@ class BogieGear(LandingGear):
         description="middle of each axle in B, gear extended and beam level, m, front "
         "axle first",
     )
-    rake_deg: float = Field(
-        default=0.0,
-        gt=-45,
-        lt=45,
-        description="angle of the strut axis from the up axis, about the lateral axis; "
-        "positive: the lower end lies further forward",
-    )
+    rake_deg: Rake = 0.0
     piston: RigidPart = Field(description="piston without the beam")
     beam: RigidPart = Field(
         description="bogie beam, level, with axles and brake stators; no wheels"

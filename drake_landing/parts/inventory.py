@@ -15,7 +15,7 @@ from drake_landing.parts.ply_strength import laminate_limits
 from drake_landing.show.comments import KINDS, component_names, read_names
 from fem.deck.grids import grids_of
 from fem.deck.records import CARDS, TABLES, topologies
-from fem.errors import InputError, nearest
+from fem.errors import Problems, nearest
 from fem.model.structure import Structure
 
 Float64 = npt.NDArray[np.float64]
@@ -75,7 +75,7 @@ def inventory(
         InputError: allowables and components of what the deck does not have.
     """
     cards = structure.deck.cards
-    problems = _unknown_materials(cards, allowables)
+    problems = Problems(_unknown_materials(cards, allowables))
     tables = [
         _table(card, cards[card], grids_of(cards[card], topology))
         for card, topology in topologies("line", "surface", "solid").items()
@@ -95,13 +95,10 @@ def inventory(
     references = {pid: limit.reference for pid, limit in limits.items()}
     of_property = _materials(cards) | {pid: mid for pid, (mid, _) in references.items()}
     elements["material"] = [of_property.get(pid, 0) for pid in elements.pid]
-    try:
+    with problems.gathered():
         for name, own in members(structure, elements, components or {}).items():
             elements.loc[own, "component"] = name
-    except InputError as error:
-        problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     known = _strengths(cards) | dict(allowables)
     elements["allowed"] = [
         references[pid][1] if pid in references else known.get(mid, np.nan)

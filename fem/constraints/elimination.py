@@ -24,7 +24,7 @@ from fem.constraints.rigid_bodies import read_bodies
 from fem.constraints.shell_to_solid import read_shell_to_solid
 from fem.constraints.spc import SinglePointConstraints, read_spc
 from fem.constraints.spline import read_splines
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -151,18 +151,15 @@ def eliminate(
         InputError: bad references, freedoms that depend twice, on each other without a
             solution, or that are dependent and constrained; all with grid and card.
     """
-    problems: list[str] = []
+    problems = Problems()
     equations: list[Equations] = []
-    try:
+    fixed = None
+    with problems.gathered():
         equations = constraint_equations(deck, points, mpc)
-    except InputError as error:
-        problems += error.problems
-    try:
+    with problems.gathered():
         fixed = read_spc(deck, points, spc)
-    except InputError as error:
-        raise InputError([*problems, *error.problems]) from None
-    if problems:
-        raise InputError(problems)
+    problems.report()
+    assert fixed is not None
     return eliminate_equations(points, concatenate(equations), fixed)
 
 
@@ -172,7 +169,7 @@ def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equatio
     Raises:
         InputError: bad references, all of them.
     """
-    problems: list[str] = []
+    problems = Problems()
     equations: list[Equations] = []
     for read in (
         lambda: read_rbe2(deck, points),
@@ -183,12 +180,9 @@ def constraint_equations(deck: "Deck", points: Points, mpc: int) -> list[Equatio
         lambda: read_mpc(deck, points, mpc),
         lambda: read_feet(deck, points),
     ):
-        try:
+        with problems.gathered():
             equations += read()
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return equations
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 
 from fem.arrays import Float64, Int64
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -73,17 +73,13 @@ def equations_of_rows(
     Raises:
         InputError: what makers say, each with its place; all of it.
     """
-    equations, problems = [], []
+    equations, problems = [], Problems()
     for name, make in makers.items():
         for _, row in table(deck, name).iterrows():
             card = str(row.get("card") or name)
-            try:
+            with problems.gathered(where(name, row).replace(name, card)):
                 equations.append(make(row, points, f"{card} {row['eid']}"))
-            except InputError as error:
-                place = where(name, row).replace(name, card)
-                problems += [f"{place}: {p}" for p in error.problems]
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return equations
 
 

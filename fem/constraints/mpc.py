@@ -3,11 +3,12 @@
 from typing import TYPE_CHECKING
 
 import numpy as np
+import pandas as pd
 
 from fem.constraints.equations import Equations, dense_equations
 from fem.constraints.sets import member_sets
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -24,29 +25,26 @@ def read_mpc(deck: "Deck", points: Points, sid: int) -> list[Equations]:
         return []
     sets = member_sets(deck, "MPC", sid)
     rows = table(deck, "MPC")
-    equations, problems = [], []
+    equations, problems = [], Problems()
     for _, row in rows[rows["sid"].isin(sets)].iterrows():
-        try:
-            dof = points.dof(row["grids"], row["comps"])
-        except InputError as error:
-            problems += [f"{where('MPC', row)}: {p}" for p in error.problems]
-            continue
-        coefficient = np.asarray(row["coefficients"], float)
-        # A freedom named twice counts with the sum of its coefficients.
-        unique, inverse = np.unique(dof, return_inverse=True)
-        total = np.bincount(inverse, weights=coefficient)
-        first = inverse[0]
-        if total[first] == 0.0:
-            problems.append(
-                f"{where('MPC', row)}: the first coefficient is zero, "
-                f"{points.label(int(dof[0]))} cannot depend on the others"
-            )
-            continue
-        others = np.arange(len(unique)) != first
-        matrix = -total[None, others] / total[first]
-        equations.append(
-            dense_equations(dof[:1], unique[others], matrix, where("MPC", row))
-        )
-    if problems:
-        raise InputError(problems)
+        place = where("MPC", row)
+        with problems.gathered(place):
+            equations.append(_equation(points, row, place))
+    problems.report()
     return equations
+
+
+def _equation(points: Points, row: pd.Series, place: str) -> Equations:
+    dof = points.dof(row["grids"], row["comps"])
+    # A freedom named twice counts with the sum of its coefficients.
+    unique, inverse = np.unique(dof, return_inverse=True)
+    total = np.bincount(inverse, weights=np.asarray(row["coefficients"], float))
+    first = inverse[0]
+    if total[first] == 0.0:
+        raise InputError(
+            f"the first coefficient is zero, {points.label(int(dof[0]))} cannot depend "
+            "on the others"
+        )
+    others = np.arange(len(unique)) != first
+    matrix = -total[None, others] / total[first]
+    return dense_equations(dof[:1], unique[others], matrix, place)

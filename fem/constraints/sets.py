@@ -6,7 +6,7 @@ import numpy as np
 
 from fem.arrays import Int64
 from fem.deck.references import table
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -45,13 +45,10 @@ def freedoms_of(
     if sid is not None:
         named = named[named["sid"] == sid]
     rows: list[Int64] = []
-    problems: list[str] = []
+    problems = Problems()
     for point, digits in zip(named["id"], named["c"]):
         components = [int(c) for c in str(digits) if c.isdigit()] or [0]
-        try:
+        with problems.gathered(card):
             rows.append(points.dof(int(point), components))
-        except InputError as error:
-            problems += [f"{card}: {text}" for text in error.problems]
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return np.unique(np.concatenate(rows)) if rows else np.zeros(0, dtype=np.int64)

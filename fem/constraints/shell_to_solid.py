@@ -24,7 +24,7 @@ from fem.constraints.equations import Equations, dense_equations
 from fem.deck.records import topologies
 from fem.deck.references import table, where
 from fem.elements.lines.line_geometry import skew
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -49,20 +49,17 @@ def read_shell_to_solid(deck: "Deck", points: Points) -> list[Equations]:
     Raises:
         InputError: elements that are not there, an edge that does not lie in the solid.
     """
-    equations, problems, done = [], [], set()
+    equations, problems, done = [], Problems(), set()
     for _, row in table(deck, "RSSCON").iterrows():
-        try:
+        ties = []
+        with problems.gathered(where("RSSCON", row)):
             ties = list(_ties(deck, points, row))
-        except InputError as error:
-            problems += [f"{where('RSSCON', row)}: {p}" for p in error.problems]
-            continue
         for tie in ties:
             # Neighbours share a grid.
             if tie.shell not in done:
                 done.add(tie.shell)
                 equations.append(_equations(points, tie, f"RSSCON {row['eid']}"))
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return equations
 
 

@@ -12,7 +12,7 @@ from fem.deck.cleanup import ids
 from fem.deck.deck import Deck
 from fem.deck.records import CARDS, TABLES, static_loads, targets_of
 from fem.deck.records.field import Field
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.coordinates import resolve
 
 Tables = Mapping[str, pd.DataFrame]
@@ -34,15 +34,13 @@ def check(deck: Deck, *, partial: bool = False) -> list[str]:
         partial: its points may be in other sections (BEGIN SUPER).
     """
     tables = deck.cards
-    problems = ([] if partial else _no_points(deck)) + _duplicates(tables)
-    if problems:
-        return problems
-    problems += _references(tables)
+    problems = Problems() if partial else Problems(_no_points(deck))
+    problems += _duplicates(tables)
     if not problems:
-        try:
+        problems += _references(tables)
+    if not problems:
+        with problems.gathered():
             resolve(tables["CORD"], tables["GRID"])
-        except InputError as error:
-            problems += error.problems
     return problems
 
 

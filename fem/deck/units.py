@@ -13,7 +13,7 @@ import pandas as pd
 from fem.deck.cards.conversions import Context, Units, listed
 from fem.deck.deck import Deck
 from fem.deck.records import CARDS, TABLES, Card
-from fem.errors import InputError, nearest
+from fem.errors import InputError, Problems, nearest
 
 _POUND_FORCE = 4.4482216152605  # N
 _INCH = 0.0254  # m
@@ -48,17 +48,14 @@ def in_si(deck: Deck, units: Units) -> Deck:
     """
     if units == SYSTEMS["SI"]:
         return deck
-    problems: list[str] = []
+    problems = Problems()
     cord = deck.cards["CORD"]
     frames = dict(zip(cord["cid"], cord["type"]))
     cards: dict[str, pd.DataFrame] = {}
     for name, table in deck.cards.items():
-        try:
+        with problems.gathered():
             cards[name] = _converted(TABLES[name], table, units, frames, deck.cards)
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     parts = {n: in_si(part, units) for n, part in deck.superelements.items()}
     increments = {n: in_si(part, units) for n, part in deck.increments.items()}
     return replace(deck, cards=cards, superelements=parts, increments=increments)

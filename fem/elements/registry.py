@@ -13,7 +13,7 @@ from fem.elements.nonstructural_mass import add_nonstructural_mass
 from fem.elements.scalars.gap import gap_notices
 from fem.elements.shells.material_axes import steep_systems
 from fem.elements.solids.notices import solid_notices
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.points import Points
 from fem.properties.shells import strength_notices
 
@@ -54,14 +54,11 @@ def read_elements(deck: "Deck", points: Points, *, nsm: int = 0) -> list[Element
         InputError: what is wrong with any element, of all types together.
     """
     blocks: list[ElementBlock] = []
-    problems: list[str] = []
+    problems = Problems()
     for reader in readers().values():
-        try:
+        with problems.gathered():
             blocks += reader(deck, points)
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return add_nonstructural_mass(deck, blocks, nsm)
 
 

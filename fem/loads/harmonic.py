@@ -19,7 +19,7 @@ import scipy.sparse as sp
 from fem.arrays import Float64
 from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.loads.dynamic import pattern_of
 from fem.loads.dynamic_sets import MOTIONS, load_factors, of_freedoms
@@ -63,32 +63,29 @@ def harmonic_excitation(
     """
     factors = load_factors(deck, subcase.dload, ("RLOAD1", "RLOAD2"))
     load, motion = _Sum(points.size), _Sum(points.size)
-    problems: list[str] = []
+    problems = Problems()
     for name in ("RLOAD1", "RLOAD2"):
         rows = deck.cards[name]
         for _, row in rows[rows["sid"].isin(factors)].iterrows():
             order = MOTIONS.get(row["type"])
-            try:
+            with problems.gathered():
                 function = _function(deck, name, row, frequency_hz)
                 if order is None:
                     spatial = pattern_of(deck, points, subcase, name, row, mass_gg)
                 else:
                     spatial = motion_of(deck, points, subcase, name, row)
                     function = _integrated(name, row, function, frequency_hz, order)
-            except InputError as error:
-                problems += error.problems
-                continue
-            delay = of_freedoms(deck, points, row, "delay", "DELAY", "t")
-            phase = of_freedoms(deck, points, row, "phase", "DPHASE", "th")
-            spatial = factors[row["sid"]] * spatial
-            used = np.flatnonzero(spatial)
-            for pair in np.unique(np.c_[delay, phase][used], axis=0):
-                same = (delay == pair[0]) & (phase == pair[1])
-                angle = np.radians(pair[1]) - 2.0 * np.pi * frequency_hz * pair[0]
-                whole = load if order is None else motion
-                whole.add(np.where(same, spatial, 0.0), function * np.exp(1j * angle))
-    if problems:
-        raise InputError(problems)
+                delay = of_freedoms(deck, points, row, "delay", "DELAY", "t")
+                phase = of_freedoms(deck, points, row, "phase", "DPHASE", "th")
+                spatial = factors[row["sid"]] * spatial
+                used = np.flatnonzero(spatial)
+                for pair in np.unique(np.c_[delay, phase][used], axis=0):
+                    same = (delay == pair[0]) & (phase == pair[1])
+                    angle = np.radians(pair[1]) - 2.0 * np.pi * frequency_hz * pair[0]
+                    whole = load if order is None else motion
+                    part = np.where(same, spatial, 0.0)
+                    whole.add(part, function * np.exp(1j * angle))
+    problems.report()
     pattern, factor = load.result(len(frequency_hz))
     moved, motion_factor = motion.result(len(frequency_hz))
     return HarmonicExcitation(

@@ -21,7 +21,7 @@ import pandas as pd
 from fem.arrays import Float64, Int64
 from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.loads.time_tables import table_function
 
@@ -86,7 +86,7 @@ def nonlinear_load(
         InputError: no such set, freedoms that are not in the solution.
     """
     terms: list[_Term] = []
-    problems: list[str] = []
+    problems = Problems()
     place = np.full(points.size, -1)
     place[rows] = np.arange(len(rows))
     for case, subcase in enumerate(subcases):
@@ -96,17 +96,14 @@ def nonlinear_load(
         for name in _CARDS:
             cards = deck.cards[name]
             for _, row in cards[cards["sid"] == subcase.nonlinear].iterrows():
-                try:
+                with problems.gathered():
                     terms.append(_term(deck, points, name, row, place, case))
-                except InputError as error:
-                    problems += error.problems
         if len(terms) + len(problems) == before:
             problems.append(
                 f"{deck.path}: subcase {subcase.id}: NONLINEAR = {subcase.nonlinear}: "
                 f"no {', '.join(_CARDS)} of that number"
             )
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return NonlinearLoad(terms) if terms else None
 
 

@@ -24,7 +24,7 @@ import pandas as pd
 import scipy.sparse as sp
 
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.model.direct_input import combination, dmig
 
@@ -72,11 +72,11 @@ def read_dynamic_input(
     """
     if not (subcase.k2pp or subcase.m2pp or subcase.b2pp or subcase.tfl):
         return None
-    size, problems = points.size, []
+    size, problems = points.size, Problems()
     found = []
     for name in ("k2pp", "b2pp", "m2pp"):
         total = sp.csr_matrix((size, size), dtype=complex)
-        try:
+        with problems.gathered(str(deck.path)):
             for factor, one in _terms(getattr(subcase, name)):
                 total = total + factor * dmig(deck, points, one, square=True)
             if name != "k2pp" and total.imag.count_nonzero():
@@ -84,16 +84,11 @@ def read_dynamic_input(
                     f"{name.upper()} = {getattr(subcase, name)}: the matrix is "
                     "complex, expected a real one (K2PP may be complex)"
                 )
-        except InputError as error:
-            problems += [f"{deck.path}: {text}" for text in error.problems]
         found.append(total)
     transfer: list[sp.csr_matrix] = []
-    try:
+    with problems.gathered():
         transfer = _transfer(deck, points, subcase.tfl)
-    except InputError as error:
-        problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     k2, b2, m2 = (
         sp.csr_matrix(own.real + part)
         for own, part in zip(found, transfer, strict=True)
@@ -121,17 +116,13 @@ def _transfer(deck: Deck, points: Points, tfl: int) -> list[sp.csr_matrix]:
     if rows.empty:
         known = sorted({int(i) for i in table(deck, "TF")["sid"]}) or "none in the deck"
         raise InputError(f"{deck.path}: TFL = {tfl}: expected a set of TF: {known}")
-    at, values = [], []
-    problems = []
+    at, values, problems = [], [], Problems()
     for _, row in rows.iterrows():
-        try:
+        with problems.gathered(where("TF", row)):
             at.append(_places(points, row))
-        except InputError as error:
-            problems += [f"{where('TF', row)}: {text}" for text in error.problems]
         own = [row[f"b{k}"] for k in range(3)]
         values.append(np.column_stack([own, *np.reshape(row["factors"], (-1, 3))]))
-    if problems:
-        raise InputError(problems)
+    problems.report()
     place, value = np.hstack(at), np.hstack(values)
     return [sp.csr_matrix((value[k], tuple(place)), shape=shape) for k in range(3)]
 

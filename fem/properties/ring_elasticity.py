@@ -11,7 +11,7 @@ import pandas as pd
 
 from fem.arrays import Float64
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.properties.elasticity import isotropic_solid
 from fem.properties.materials import complete
 
@@ -44,16 +44,13 @@ def ring_materials(deck: "Deck") -> dict[int, RingMaterial]:
         InputError: constants of which no elasticity can be made.
     """
     used = set(table(deck, "CTRIAX6")["mid"].tolist())
-    found, problems = {}, []
+    found, problems = {}, Problems()
     for card, make in (("MAT1", _isotropic), ("MAT3", _orthotropic)):
         rows = table(deck, card)
         for _, row in rows[rows["mid"].isin(used)].iterrows():
-            try:
+            with problems.gathered():
                 found[int(row["mid"])] = make(row)
-            except InputError as error:
-                problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return found
 
 

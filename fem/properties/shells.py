@@ -15,7 +15,7 @@ import pandas as pd
 
 from fem.arrays import Float64, Int64
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.properties.elasticity import ElasticityTable
 from fem.properties.failure import Failure
 from fem.properties.laminate import Laminate
@@ -124,17 +124,14 @@ def read_shell_properties(
     wanted = set(pids)
     materials = ElasticityTable(deck)
     properties: dict[int, ShellProperty] = {}
-    problems: list[str] = []
+    problems = Problems()
     for card, make in (("PSHELL", _pshell), ("PCOMP", _pcomp)):
         for _, row in table(deck, card).iterrows():
             if int(row["pid"]) not in wanted:
                 continue
-            try:
+            with problems.gathered():
                 properties[int(row["pid"])] = make(row, materials)
-            except InputError as error:
-                problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return properties
 
 

@@ -13,7 +13,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Protocol
 
-from systems.tools.checks import require
+from systems.tools.checks import points_of_curve, require
 from systems.tools.scalar import Scalar, cos, sin
 
 
@@ -147,21 +147,9 @@ class MeasuredProfile:
     _slope: tuple[float, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        d = tuple(float(value) for value in self.distance)
-        h = tuple(float(value) for value in self.height)
-        if len(d) != len(h) or len(d) < 2:
-            raise ValueError(
-                f"runway profile: {len(d)} distances and {len(h)} heights, expected "
-                "two or more of each, as many of one as of the other"
-            )
-        if not all(map(math.isfinite, d + h)):
-            raise ValueError("runway profile: a value is not a finite number")
-        for before, after in pairwise(d):
-            if not after > before:
-                raise ValueError(
-                    f"runway profile: distance {after} m follows {before} m, expected "
-                    "strictly ascending distances"
-                )
+        d, h = points_of_curve(
+            "runway profile", self.distance, self.height, "distance", "m"
+        )
         inner = [
             (h[i + 1] - h[i - 1]) / (d[i + 1] - d[i - 1]) for i in range(1, len(d) - 1)
         ]

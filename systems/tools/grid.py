@@ -3,11 +3,11 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
 
+from systems.tools.checks import ascending
 from systems.tools.scalar import Scalar
 
 
@@ -28,23 +28,16 @@ class Grid:
     z: Sequence[Sequence[float]]
 
     def __post_init__(self) -> None:
-        x, y = (tuple(float(v) for v in axis) for axis in (self.x, self.y))
+        x, y = (ascending("grid", axis, "abscissa") for axis in (self.x, self.y))
         z = tuple(tuple(float(v) for v in row) for row in self.z)
-        if len(x) < 2 or len(y) < 2:
-            raise ValueError(
-                f"grid: {len(x)} by {len(y)} abscissae, expected two or more of each"
-            )
         if len(z) != len(x) or any(len(row) != len(y) for row in z):
             sizes = sorted({len(row) for row in z})
             raise ValueError(
                 f"grid: {len(z)} rows of {', '.join(map(str, sizes))} values, expected "
                 f"{len(x)} rows of {len(y)}"
             )
-        if not all(map(math.isfinite, (*x, *y, *(v for row in z for v in row)))):
+        if not all(math.isfinite(v) for row in z for v in row):
             raise ValueError("grid: a value is not a finite number")
-        for axis in (x, y):
-            if any(b <= a for a, b in pairwise(axis)):
-                raise ValueError(f"grid: abscissae {axis} do not strictly ascend")
         for name, value in (("x", x), ("y", y), ("z", z)):
             object.__setattr__(self, name, value)
 

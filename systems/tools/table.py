@@ -4,7 +4,6 @@ Plain tuples and `bisect`: a look-up costs well under a microsecond, where numpy
 on one number costs several.
 """
 
-import math
 from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -13,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from systems.tools.checks import points_of_curve
 from systems.tools.scalar import Scalar
 
 
@@ -42,21 +42,7 @@ class Table:
     _area: tuple[float, ...] = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        x = tuple(float(value) for value in self.x)
-        y = tuple(float(value) for value in self.y)
-        if len(x) != len(y) or len(x) < 2:
-            raise ValueError(
-                f"table: {len(x)} abscissae and {len(y)} ordinates, expected two or "
-                "more of each, as many of one as of the other"
-            )
-        if not all(map(math.isfinite, x + y)):
-            raise ValueError("table: a value is not a finite number")
-        for before, after in pairwise(x):
-            if not after > before:
-                raise ValueError(
-                    f"table: abscissa {after} follows {before}, expected strictly "
-                    "ascending abscissae"
-                )
+        x, y = points_of_curve("table", self.x, self.y, "abscissa")
         slope = tuple((y[i + 1] - y[i]) / (x[i + 1] - x[i]) for i in range(len(x) - 1))
         area = [0.0]
         for i in range(len(x) - 1):

@@ -68,6 +68,19 @@ LOAD,1,1.,1.,2,1.,3,1.,4
 """
 
 
+TRANSIENT = """\
+SUBCASE 3
+ANALYSIS=DTRAN
+DLOAD=9
+TSTEP=8
+BEGIN BULK
+TLOAD1,9,3,,,7
+TABLED1,7
+,0.,0.,.01,1.,.02,0.,ENDT
+TSTEP,8,20,.001
+"""
+
+
 def deck(grids: str, number=lambda grid: grid, element=lambda e: e) -> str:
     """Text of the structure with other grid cards and other numbers."""
     text = CONTROL + PROPERTIES + grids
@@ -83,6 +96,12 @@ def deck(grids: str, number=lambda grid: grid, element=lambda e: e) -> str:
     text += f"PLOAD1,3,{element(7)},FZ,FR,.2,200.,.9,400.\n"
     text += f"PLOAD1,3,{element(8)},FYE,FR,0.,200.,1.,100.\n"
     return text + "GRAV,4,,9.81,.3,-.2,1.\nENDDATA\n"
+
+
+def every_solution() -> str:
+    """Text of the structure with statics, modes and a transient."""
+    text = deck(plain()).replace("BEGIN BULK\n", TRANSIENT)
+    return text.replace("ESE=ALL", "ESE=ALL\nOLOAD=ALL")
 
 
 def plain() -> str:

@@ -22,7 +22,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.control.executive import Executive
 from fem.deck.deck import Deck
 from fem.deck.text.source import found_file
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.matrix_files.named import NamedMatrix
 from fem.matrix_files.output4 import read_output4
 
@@ -69,30 +69,25 @@ def with_matrices(
         InputError: all that is wrong with them.
     """
     files = assigned_files(executive)
-    found, problems, notices = dict(parts), [], []
+    found, problems, notices = dict(parts), Problems(), []
     names: list[tuple[str, str]] = []
     for _, row in deck.cards["SEBULK"].iterrows():
         number = int(row["seid"])
         if row["type"] not in TYPES or number not in parts:
             continue
-        place = f"{row['file']}:{row['line']}: SEBULK {number}"
-        try:
+        with problems.gathered(f"{row['file']}:{row['line']}: SEBULK {number}"):
             own, where = _matrices(deck, parts[number], row, files)
             table, kept = _as_dmig(own, parts[number], number, where)
             unused = _unused(own, where, executive.sol)
-        except InputError as error:
-            problems += [f"{place}: {text}" for text in error.problems]
-            continue
-        cards = {**parts[number].cards, "DMIG": table}
-        found[number] = replace(parts[number], cards=cards)
-        names += kept
-        notices.append(
-            f"superelement {number}: {', '.join(kind for kind, _ in kept)} as {where} "
-            "has them; GRAV, ACCEL, ACCEL1 and RFORCE do not act on its mass"
-            f"{unused}"
-        )
-    if problems:
-        raise InputError(problems)
+            cards = {**parts[number].cards, "DMIG": table}
+            found[number] = replace(parts[number], cards=cards)
+            names += kept
+            kinds = ", ".join(kind for kind, _ in kept)
+            notices.append(
+                f"superelement {number}: {kinds} as {where} has them; GRAV, ACCEL, "
+                f"ACCEL1 and RFORCE do not act on its mass{unused}"
+            )
+    problems.report()
     return replace(deck, external=tuple(names)), found, notices
 
 

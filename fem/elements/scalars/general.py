@@ -14,7 +14,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.references import table, where
 from fem.elements.dense import DenseBlock
 from fem.elements.lines.line_geometry import skew
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -40,18 +40,14 @@ def read_genel(deck: "Deck", points: Points) -> list[General]:
     """
     rows = table(deck, "GENEL").sort_values("eid", ignore_index=True)
     found: dict[int, list[tuple[int, Int64, Float64]]] = {}
-    problems = []
+    problems = Problems()
     for _, row in rows.iterrows():
         grids, comps = np.asarray(row["grids"]), np.asarray(row["comps"])
-        try:
+        with problems.gathered(where("GENEL", row)):
             matrix = _stiffness(points, grids, comps, row["k"], np.asarray(row["s"]))
             dof = points.dof(grids, comps)
-        except InputError as error:
-            problems += [f"{where('GENEL', row)}: {text}" for text in error.problems]
-            continue
-        found.setdefault(len(grids), []).append((int(row["eid"]), dof, matrix))
-    if problems:
-        raise InputError(problems)
+            found.setdefault(len(grids), []).append((int(row["eid"]), dof, matrix))
+    problems.report()
     return [
         General(
             card="GENEL",

@@ -15,7 +15,7 @@ from fem.elements.shells.curved import SURFACES, CurvedShell, material_angle
 from fem.elements.shells.material_axes import without_projection
 from fem.elements.shells.quadratic_surface import Surface, base
 from fem.elements.shells.shell_reader import check_properties, corner_thickness
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.properties.shells import ShellProperty, read_shell_properties, sections
 
@@ -41,7 +41,7 @@ def read_curved(deck: "Deck", points: Points, card: str) -> list[CurvedShell]:
     topology = CARDS[card].topology
     assert topology is not None
     there = grids_of(rows, topology)[:, topology.corners :] > 0
-    blocks, problems = [], []
+    blocks, problems = [], Problems()
     for name in ("PSHELL", "PCOMP"):
         for present in np.unique(there[kind == name], axis=0):
             part = rows[(kind == name) & (there == present).all(axis=1)]
@@ -49,12 +49,9 @@ def read_curved(deck: "Deck", points: Points, card: str) -> list[CurvedShell]:
             surface = SURFACES[card]
             if not present.all():
                 surface = surface.without(present.tolist())
-            try:
+            with problems.gathered():
                 blocks.append(_block(deck, points, part, card, surface, properties))
-            except InputError as error:
-                problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return blocks
 
 

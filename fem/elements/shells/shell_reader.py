@@ -12,7 +12,7 @@ from fem.elements.shells.material_axes import without_projection
 from fem.elements.shells.shell import Shell
 from fem.elements.shells.shell_geometry import facet
 from fem.elements.shells.shell_normals import deck_normals
-from fem.errors import InputError, nearest
+from fem.errors import InputError, Problems, nearest
 from fem.geometry.points import Points, grid_freedoms
 from fem.properties.shells import ShellProperty, read_shell_properties, sections
 
@@ -34,19 +34,16 @@ def read_shells(deck: "Deck", points: Points, card: str, corners: int) -> list[S
     properties = read_shell_properties(deck, rows["pid"])
     normals = deck_normals(deck, points)
     kind = np.array([properties[int(p)].card for p in rows["pid"]])
-    blocks, problems = [], []
+    blocks, problems = [], Problems()
     for name in ("PSHELL", "PCOMP"):
         part = rows[kind == name].reset_index(drop=True)
         if part.empty:
             continue
-        try:
+        with problems.gathered():
             blocks.append(
                 _block(deck, points, part, card, corners, properties, normals)
             )
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return blocks
 
 

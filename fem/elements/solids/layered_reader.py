@@ -12,7 +12,7 @@ from fem.elements.solids.isoparametric import jacobians
 from fem.elements.solids.layered import LayeredSolid, Stack, stacked_along
 from fem.elements.solids.solid import Shape
 from fem.elements.solids.solid_reader import check_jacobian, material_axes
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.properties.elasticity import ElasticityTable
 
@@ -35,18 +35,15 @@ def read_layered(deck: "Deck", points: Points, shape: Shape) -> list[LayeredSoli
     if rows.empty:
         return []
     materials = ElasticityTable(deck)
-    problems, blocks = [], []
+    problems, blocks = Problems(), []
     for pid, own in rows.groupby("pid", sort=True):
         laminate = laminates[laminates["pid"] == pid].iloc[0]
-        try:
+        with problems.gathered():
             stack = _stack(laminate, materials)
             blocks.append(
                 _block(points, own.reset_index(drop=True), laminate, stack, shape)
             )
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return blocks
 
 

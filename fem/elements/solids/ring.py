@@ -27,7 +27,7 @@ from fem.elements.dense import DenseBlock, some
 from fem.elements.shells.shell_recovery import point_names
 from fem.elements.solids.isoparametric import product_penta
 from fem.elements.stress_measures import solid_principal, solid_von_mises
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.properties.ring_elasticity import RingMaterial, ring_materials
 
@@ -222,17 +222,14 @@ def read_ctriax6(deck: "Deck", points: Points) -> list[Ring]:
         return []
     grids = rows[[f"g{k}" for k in range(1, 7)]].to_numpy(np.int64)
     materials = ring_materials(deck)
-    blocks, problems = [], []
+    blocks, problems = [], Problems()
     patterns, which = np.unique(grids > 0, axis=0, return_inverse=True)
     for k, there in enumerate(patterns):
         own = np.flatnonzero(which.ravel() == k)
         part = rows.iloc[own].reset_index(drop=True)
-        try:
+        with problems.gathered():
             blocks.append(_block(points, part, grids[own], there, materials))
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return blocks
 
 

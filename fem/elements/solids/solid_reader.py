@@ -19,7 +19,7 @@ from fem.elements.solids.incomplete import without
 from fem.elements.solids.integration import integration_of
 from fem.elements.solids.isoparametric import jacobians
 from fem.elements.solids.solid import Matrices, Shape, Solid
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points, grid_freedoms
 from fem.properties.elasticity import Elasticity, ElasticityTable
 
@@ -47,12 +47,12 @@ def read_solids(
         return []
     nodes = [np.asarray(n, dtype=np.int64) for n in rows["nodes"]]
     count = np.array([len(n) for n in nodes])
-    problems, blocks = [], []
+    problems, blocks = Problems(), []
     for shape in shapes:
         chosen = np.flatnonzero(count == shape.nodes)
         if not len(chosen):
             continue
-        try:
+        with problems.gathered():
             for some, variant in _by_integration(deck, rows.iloc[chosen], shape):
                 grids = np.stack([nodes[i] for i in chosen[some]])
                 part = rows.iloc[chosen[some]].reset_index(drop=True)
@@ -60,10 +60,7 @@ def read_solids(
                     here = part.iloc[own].reset_index(drop=True)
                     there = grids[own][:, grids[own[0]] > 0]
                     blocks.append(_block(deck, points, here, kind, there))
-        except InputError as error:
-            problems += error.problems
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return blocks
 
 

@@ -11,31 +11,12 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from mixed_structure import CONTROL, deck, plain
+from mixed_structure import every_solution
 from mutations import mutate
 
 import fem
 from fem.cli import _status
 from fem.model.points import read_points
-
-TRANSIENT = """\
-SUBCASE 3
-ANALYSIS=DTRAN
-DLOAD=9
-TSTEP=8
-BEGIN BULK
-TLOAD1,9,3,,,7
-TABLED1,7
-,0.,0.,.01,1.,.02,0.,ENDT
-TSTEP,8,20,.001
-"""
-
-
-def good_deck() -> str:
-    """Every solution in one deck."""
-    assert "BEGIN BULK\n" in CONTROL
-    text = deck(plain()).replace("BEGIN BULK\n", TRANSIENT)
-    return text.replace("ESE=ALL", "ESE=ALL\nOLOAD=ALL")
 
 
 def unbalance(path: Path, results: Path) -> float:
@@ -64,7 +45,7 @@ def unbalance(path: Path, results: Path) -> float:
 
 def test_the_deck_is_good(tmp_path, capsys):
     path = tmp_path / "model.bdf"
-    path.write_text(good_deck())
+    path.write_text(every_solution())
     assert _status([str(path), "--out", str(tmp_path)]) == 0
     assert "direct transient" in capsys.readouterr().out
     assert unbalance(path, tmp_path / "model.h5") < 1e-8
@@ -77,7 +58,7 @@ def test_the_deck_is_good(tmp_path, capsys):
 )
 def test_a_malformed_deck_ends_in_a_message_or_a_right_answer(seed, tmp_path, capsys):
     path = tmp_path / "model.bdf"
-    path.write_text(mutate(good_deck(), random.Random(seed)), encoding="utf-8")
+    path.write_text(mutate(every_solution(), random.Random(seed)), encoding="utf-8")
     status = _status([str(path), "--out", str(tmp_path)])
     error = capsys.readouterr().err
     assert "Traceback" not in error

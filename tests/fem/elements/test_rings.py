@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from benchmarks.verification.quadratic_solids import RINGS
 from benchmarks.verification.runner import run
 from fem.deck.reader import read_deck
 from fem.errors import InputError
@@ -41,7 +42,7 @@ MATERIAL = f"MAT1,1,{E},,{NU},{RHO},1.2-5\n"
 def solve(bulk, held, case="LOAD = 1\n"):
     case = f"SPC = 1\nDISP = ALL\nSTRESS = ALL\n{case}"
     text = f"{bulk}{MATERIAL}SPC1,1,2456,1,THRU,99999\n{held}"
-    return run(f"SOL 101\nCEND\n{case}BEGIN BULK\n{text}ENDDATA\n")
+    return run(f"SOL 101\nCEND\n{case}BEGIN BULK\n{text}\nENDDATA\n")
 
 
 def plane(heights, ids, n):
@@ -158,34 +159,10 @@ def test_heat_leaves_no_stress_and_mass_is_that_of_the_body():
     assert found["mass/total"] == pytest.approx(RHO * np.pi * (B**2 - A**2))
 
 
-COMMERCIAL = """\
-CTRIAX6,5301,1,5301,5302,5303,5304,5305,5306
-,30.
-CTRIAX6,5311,1,5311,5312,5313,5314,5315
-,30.
-GRID,5301,,6.,0.,0.
-GRID,5302,,6.,0.,2.
-GRID,5303,,6.,0.,4.
-GRID,5304,,4.238,0.,3.
-GRID,5305,,2.536,0.,2.
-GRID,5306,,4.238,0.,1.
-GRID,5311,,6.,0.,0.
-GRID,5312,,6.,0.,2.
-GRID,5313,,6.,0.,4.
-GRID,5314,,3.402,0.,3.5
-GRID,5315,,2.536,0.,2.
-SPC1,1,2456,5301,THRU,5315
-SPC1,1,3,5302,5312
-PLOADX,1,.0222139,.0333209,5301,5302,5303
-PLOADX1,1,5311,.0222139,.0333209,5311,5313
-MAT1,1,1.,.8,.1
-"""
-
-
 def test_two_rings_as_msc_prints_them():
     """E, G and nu contradict each other, the material is turned by 30 degrees."""
-    case = "SPC = 1\nLOAD = 1\nDISP = ALL\nSTRESS = ALL"
-    found = run(f"SOL 101\nCEND\n{case}\nBEGIN BULK\n{COMMERCIAL}ENDDATA\n")
+    case = "SPC = 1\nLOAD = 2\nDISP = ALL\nSTRESS = ALL"
+    found = run(f"SOL 101\nCEND\n{case}\nBEGIN BULK\n{RINGS}\nENDDATA\n")
     u = found["static/1/displacement"][:, [0, 2]]
     expected = {0: (-0.2956416, -0.02246387), 4: (-0.4104635, -0.3183309)}
     expected |= {6: (-0.5260662, -0.01578419), 10: (-0.3184438, 0.3062404)}
@@ -226,8 +203,8 @@ def test_mat3_of_one_kind_is_mat1(tmp_path):
     ],
 )
 def test_what_is_no_ring_is_named(old, new, message):
-    text = COMMERCIAL.replace(old, new)
-    assert text != COMMERCIAL
-    case = "SPC = 1\nLOAD = 1"
+    text = RINGS.replace(old, new)
+    assert text != RINGS
+    case = "SPC = 1\nLOAD = 2"
     with pytest.raises(InputError, match=message):
-        run(f"SOL 101\nCEND\n{case}\nBEGIN BULK\n{text}ENDDATA\n")
+        run(f"SOL 101\nCEND\n{case}\nBEGIN BULK\n{text}\nENDDATA\n")
