@@ -121,12 +121,18 @@ class LineBlock(DenseBlock, ABC):
     def differential_stiffness(
         self, motion: Float64, load: Float64 | None = None
     ) -> Float64:
-        """(e, 12, 12) of the section forces, and of the arms that offsets are."""
+        """(e, 12, 12) of the section forces, and of the arms that offsets are.
+
+        A section without torsional stiffness says nothing of its twist: no thrust turns
+        it (the differential stiffness of NASTRAN-95's bar, which has J for the polar
+        moment, likewise). Which component AUTOSPC holds does so not count.
+        """
         geometry = self.geometry
         force = np.einsum("eij,ej->ei", self._at_ends @ self._map, motion)[:, :12]
         if load is not None:
             force -= np.einsum("eij,ej->ei", geometry.end_forces(), load[:, :12])
         ratio, polar = self.preload_section()
+        polar = np.where(self.end_stiffness[:, 3, 3] > 0.0, polar, 0.0)
         at_ends = self._widened(line_differential(geometry.length, force, ratio, polar))
         matrix = congruence(self._condensed[1] @ self._map, at_ends)
         for k, arm in ((0, geometry.offset_a), (6, geometry.offset_b)):

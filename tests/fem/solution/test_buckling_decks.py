@@ -59,18 +59,25 @@ def solve(tmp_path):
 
 
 TURNED = np.linalg.qr(np.array([[2.0, 1, 0], [-1, 1, 3], [1, -2, 1]]))[0]
+# Half way between r and z of a cylindrical system.
+DIAGONAL = np.linalg.qr(np.array([[0.5, 1, 0], [0.5, 0, 1], [0.5**0.5, 0, 0]]))[0].T
 
 
 @pytest.mark.parametrize(
-    ("length", "force", "turn"),
+    ("length", "force", "turn", "torsion"),
     [
-        (1e3, 1.0, np.eye(3)),  # mm, N
-        (39.3700787402, 0.224808943100, np.eye(3)),  # in, lbf
-        (1.0, 1.0, TURNED),
+        (1e3, 1.0, np.eye(3), 4e-6),  # mm, N
+        (39.3700787402, 0.224808943100, np.eye(3), 4e-6),  # in, lbf
+        (1.0, 1.0, TURNED, 4e-6),
+        (1.0, 1.0, DIAGONAL, 0.0),
     ],
 )
-def test_factors_know_no_units_and_no_frame(solve, length, force, turn):
-    """The column in other units and directions, its grids in a cylindrical frame."""
+def test_factors_know_no_units_and_no_frame(solve, length, force, turn, torsion):
+    """The column in other units and directions, its grids in a cylindrical frame.
+
+    Without torsional stiffness AUTOSPC holds a component of each grid, by rounding
+    another one where two are as near to the axis.
+    """
     y = turn[1] * length
     grids = []
     for k in range(11):
@@ -85,7 +92,7 @@ def test_factors_know_no_units_and_no_frame(solve, length, force, turn):
             *("CORD2C,5,,0.,0.,0.,0.,0.,1.", ",1.,0.,0."),
             *(*grids, f"GRID,20,,{side},,123456", *bars),
             f"PBAR,1,1,{0.01 * length**2:.9e},{2e-6 * length**4:.9e},"
-            f"{3e-6 * length**4:.9e},{4e-6 * length**4:.9e}",
+            f"{3e-6 * length**4:.9e},{torsion * length**4:.9e}",
             f"MAT1,1,{YOUNG * force / length**2:.9e},,.3",
             f"SPC1,1,123456,1\nFORCE,7,11,,1.,{push}\n",
         ]
