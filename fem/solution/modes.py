@@ -61,12 +61,27 @@ def with_residual_vectors(
     pattern: sp.csr_matrix,
     options: Options,
 ) -> Modes:
-    """The modes and, unless RESVEC says NO, residual vectors of loads (n, k)."""
+    """The modes and, unless RESVEC says NO, residual vectors.
+
+    As in MSC Nastran those of the loads (n, k) and of the inertia of the six rigid
+    motions. These stand for low modes that METHOD leaves out, which would otherwise be
+    part of the response to the load and lower its frequency (`pmultrand` of pyNastran:
+    forces 45 times too small without them). RESVEC(NOAPPL), (NOINRL) leave one out;
+    vectors of dampers (DAMPLOD) and of RVDOF are not made.
+    """
     wanted = model.subcase.resvec or str(model.deck.param("RESVEC"))
     if wanted.upper().startswith("NO"):
         return modes
+    words = model.subcase.options.get("resvec", ())
+    loads = [] if "NOAPPL" in words else [pattern]
+    if "NOINRL" not in words:
+        rigid = rigid_modes(model.points, np.zeros(3))
+        loads.append(reduced.load(sp.csr_matrix(model.matrices.mass @ rigid)))
+    if not loads:
+        return modes
     more = residual_vectors(
-        reduced.stiffness, reduced.mass, modes, pattern, solver=options.solver
+        *(reduced.stiffness, reduced.mass, modes, sp.hstack(loads)),
+        solver=options.solver,
     )
     options.console.say(f"{more.count - modes.count} residual vectors")
     return more

@@ -219,6 +219,10 @@ class _Reader:
 
     # -- commands with rules of their own, called by name ---------------------------
 
+    def do_resvec(self, command: _Command) -> None:
+        options = {**self.current.options, "resvec": command.options}
+        self.change(resvec=command.value, options=options)
+
     def do_param(self, command: _Command) -> None:
         parts = [x for x in re.split(r"[\s,=]+", command.statement.upper()) if x]
         if len(parts) < 3:

@@ -87,6 +87,43 @@ def test_an_oscillator_follows_its_transfer_function(solve, sol, dload):
     assert np.abs(damper) == pytest.approx(np.abs(omega * B * u))
 
 
+BEAM_PUSHED = """\
+GRID,1,,0.,0.,0.
+=,*1,=,*.3,==
+=9
+CBAR,1,1,1,2,0.,1.,0.
+=,*1,=,*1,*1,==
+=8
+PBAR,1,1,1.-3,1.-6,2.-6,1.-6
+MAT1,1,7.+10,,.3,2700.
+PARAM,COUPMASS,1
+SPC1,1,123456,1
+FORCE,9,11,,100.,10.,1.,1.
+RLOAD1,5,9,,,7
+TABLED1,7
+,0.,1.,100.,1.,ENDT
+FREQ,3,15.
+"""
+
+
+def test_inertia_stands_for_the_low_modes_that_are_left_out(solve):
+    """Bending at 4 and 6 Hz, load at 15 Hz; without them the load's own vector bends.
+
+    The bar is pushed: 1000 N and the mass beyond, far below its mode at 424 Hz.
+    """
+    case = CASE + "FORCE = ALL\n"
+
+    def push(more, sol=111):
+        found = solve(sol, case + more, BEAM_PUSHED + "EIGRL,1,12.,,2")[0]
+        return found["frequency/1/element_force/CBAR/value"][0, :, 6].real
+
+    direct = push("", sol=108)
+    np.testing.assert_allclose(push(""), direct, rtol=5e-3)
+    np.testing.assert_allclose(push("RESVEC = YES\n"), direct, rtol=5e-3)
+    assert np.abs(push("RESVEC(NOINRL) = YES\n") / direct - 1.0).max() > 0.5
+    assert np.abs(push("RESVEC = NO\n") / direct - 1.0).max() > 0.5
+
+
 def test_modal_damping_is_viscous_or_structural(solve):
     bulk = OSCILLATOR.replace("CDAMP2,2,.5,1,1,2,1\n", "")
     bulk += "TABDMP1,2,CRIT\n,0.,.05,100.,.05,ENDT\n"
