@@ -68,6 +68,8 @@ def engine(pool: Pool) -> Iterator["Engine"]:
         "distributed.worker.memory.target": False,
         "distributed.worker.memory.spill": False,
         "distributed.nanny.pre-spawn-environ": {**_THREADS, "MALLOC_ARENA_MAX": "2"},
+        # It looks at the stack of the task a hundred times a second, in its way.
+        "distributed.worker.profile.enabled": False,
         "distributed.logging.distributed": "error",
     }
     with configured(quiet):

@@ -203,7 +203,14 @@ def _buckling(
             "work: the mesh is too coarse for their half waves, and the factor is a "
             "hint, no proof. "
         )
-    if buckled.table.empty:
+    wanted = result.case.parts.buckling
+    if len(buckled.table) < wanted and np.isfinite(buckled.known_below):
+        text += (
+            f"Of the {wanted} panels that were asked for {len(buckled.table)} are "
+            "known to be the lowest: the modes of a case reach a factor of "
+            f"{buckled.known_below:.3g}. "
+        )
+    elif buckled.table.empty:
         text += "No panel buckles under these loads, whatever their size."
     blocks = [png_block(path, caption) for path, caption in pictures]
     if len(buckled.table):

@@ -21,7 +21,12 @@ import scipy.sparse as sp
 
 from fem.algebra.eigenproblem import DENSE_LIMIT, Progress, look_again
 from fem.algebra.lanczos import BlockLanczos, RitzPairs
-from fem.algebra.linear_solver import SingularMatrixError, SolverName, factorize
+from fem.algebra.linear_solver import (
+    Factorization,
+    SingularMatrixError,
+    SolverName,
+    factorize,
+)
 from fem.algebra.statics import determinate_rows
 from fem.algebra.sturm import count_below
 from fem.arrays import Float64
@@ -98,6 +103,86 @@ class Buckling:
     counts: tuple[FactorCount, ...]
 
 
+class BucklingSolver:
+    """Load factors of one structure under several loads: K is factorised once.
+
+    Args:
+        stiffness: (n, n) K, positive definite, but for free motions.
+        free: motions without energy, that modes have no share of.
+        solver: as in `factorize`.
+
+    Example:
+        >>> with BucklingSolver(stiffness) as solver:
+        ...     lowest = [solver.factors(kd, count=3).factor for kd in differentials]
+    """
+
+    def __init__(
+        self,
+        stiffness: sp.csr_matrix,
+        free: FreeMotions | None = None,
+        solver: SolverName | None = None,
+    ) -> None:
+        if free is not None and not free.motions.shape[1]:
+            free = None
+        self._stiffness, self._free, self._solver = stiffness, free, solver
+        self._inverse: _Inverse | None = None
+
+    def __enter__(self) -> "BucklingSolver":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._inverse is not None:
+            self._inverse.factor.close()
+            self._inverse = None
+
+    def factors(
+        self,
+        differential: sp.csr_matrix,
+        *,
+        count: int | None = None,
+        band: tuple[float | None, float | None] = (None, None),
+        progress: Progress | None = None,
+    ) -> Buckling:
+        """Load factors λ with (K + λ K_d) x = 0.
+
+        Args:
+            differential: (n, n) K_d of the load.
+            count: at most this many, the smallest in magnitude.
+            band: (lowest, highest) λ; None stands for no limit. A count, or both
+                limits, or one limit with the sign of the wanted factors is needed.
+            progress: called with (converged, wanted).
+
+        Raises:
+            SingularMatrixError: K is not positive definite.
+            ValueError: neither count nor limits.
+        """
+        low = -np.inf if band[0] is None else band[0]
+        high = np.inf if band[1] is None else band[1]
+        if count is None and not np.isfinite(_reach(low, high)):
+            raise ValueError("give a count of factors or limits")
+        if not len(self._stiffness.indptr) - 1:
+            return Buckling(factor=np.zeros(0), shape=np.zeros((0, 0)), counts=())
+        problem = _Problem(
+            self._stiffness, differential, low, high, count, self._free, self._solver
+        )
+        if problem.n <= DENSE_LIMIT:
+            factors, shapes = problem.dense()
+            counts = problem.counts(factors, np.inf)
+        else:
+            if self._inverse is None:
+                self._inverse = _Inverse.of(self._stiffness, self._free, self._solver)
+            factors, shapes, counts = problem.iterate(self._inverse, progress)
+        chosen = problem.chosen(factors)
+        if shapes.size:
+            largest = np.argmax(np.abs(shapes), axis=0)
+            shapes = shapes * np.sign(shapes[largest, np.arange(shapes.shape[1])])
+        return Buckling(
+            factor=factors[chosen],
+            shape=np.asfortranarray(shapes[:, chosen]),
+            counts=tuple(counts),
+        )
+
+
 def buckling_factors(
     stiffness: sp.csr_matrix,
     differential: sp.csr_matrix,
@@ -108,43 +193,41 @@ def buckling_factors(
     solver: SolverName | None = None,
     progress: Progress | None = None,
 ) -> Buckling:
-    """Load factors λ with (K + λ K_d) x = 0.
+    """Load factors under one load; arguments as in `BucklingSolver`."""
+    with BucklingSolver(stiffness, free, solver) as own:
+        return own.factors(differential, count=count, band=band, progress=progress)
 
-    Args:
-        stiffness: (n, n) K, positive definite, but for free motions.
-        differential: (n, n) K_d of the load.
-        count: at most this many, the smallest in magnitude.
-        band: (lowest, highest) λ; None stands for no limit. A count, or both limits,
-            or one limit with the sign of the wanted factors is needed.
-        free: motions without energy, that modes have no share of.
-        solver: as in `factorize`.
-        progress: called with (converged, wanted).
 
-    Raises:
-        SingularMatrixError: K is not positive definite.
-        ValueError: neither count nor limits.
-    """
-    low = -np.inf if band[0] is None else band[0]
-    high = np.inf if band[1] is None else band[1]
-    if count is None and not np.isfinite(_reach(low, high)):
-        raise ValueError("give a count of factors or limits")
-    if not len(stiffness.indptr) - 1:
-        return Buckling(factor=np.zeros(0), shape=np.zeros((0, 0)), counts=())
-    if free is not None and not free.motions.shape[1]:
-        free = None
-    problem = _Problem(stiffness, differential, low, high, count, free, solver)
-    factors, shapes, known = (
-        problem.dense() if problem.n <= DENSE_LIMIT else problem.iterate(progress)
-    )
-    chosen = problem.chosen(factors)
-    if shapes.size:
-        largest = np.argmax(np.abs(shapes), axis=0)
-        shapes = shapes * np.sign(shapes[largest, np.arange(shapes.shape[1])])
-    return Buckling(
-        factor=factors[chosen],
-        shape=np.asfortranarray(shapes[:, chosen]),
-        counts=tuple(problem.counts(factors, chosen, known)),
-    )
+@dataclass(frozen=True)
+class _Inverse:
+    """Displacements under loads, of free structures upon a determinate support."""
+
+    factor: Factorization
+    keep: npt.NDArray[np.intp]
+    free: FreeMotions | None
+
+    @classmethod
+    def of(
+        cls,
+        stiffness: sp.csr_matrix,
+        free: FreeMotions | None,
+        solver: SolverName | None,
+    ) -> "_Inverse":
+        size = len(stiffness.indptr) - 1
+        if free is None:
+            return cls(factorize(stiffness, solver=solver), np.arange(size), None)
+        keep = np.setdiff1d(np.arange(size), determinate_rows(free.motions))
+        inner = sp.csr_matrix(stiffness[keep][:, keep])
+        return cls(factorize(inner, solver=solver), keep, free)
+
+    def __call__(self, load: Float64) -> Float64:
+        """(n, k), of free structures in mean axes."""
+        if self.free is None:
+            return self.factor.solve(np.asfortranarray(load))
+        moved = np.zeros_like(load)
+        balanced = self.free.balanced(load)[self.keep]
+        moved[self.keep] = self.factor.solve(np.asfortranarray(balanced))
+        return self.free.in_mean_axes(moved)
 
 
 def _reach(low: float, high: float) -> float:
@@ -171,8 +254,8 @@ class _Problem:
         inside = (factors >= self.low) & (factors <= self.high)
         return np.flatnonzero(inside)[: self.count]
 
-    def dense(self) -> tuple[Float64, Float64, float]:
-        """All factors."""
+    def dense(self) -> tuple[Float64, Float64]:
+        """All factors and shapes."""
         k, kd = self.stiffness.toarray(), self.differential.toarray()
         basis = None
         if self.free is not None:
@@ -187,7 +270,7 @@ class _Problem:
         order = np.argsort(-np.abs(theta), kind="stable")
         theta = theta[order]
         there = np.abs(theta) > _NONE * np.abs(theta).max(initial=0.0)
-        return 1.0 / theta[there], shapes[:, order][:, there], np.inf
+        return 1.0 / theta[there], shapes[:, order][:, there]
 
     def _failing_row(self) -> int | None:
         try:
@@ -196,46 +279,27 @@ class _Problem:
             return error.row
         return None
 
-    def iterate(self, progress: Progress | None) -> tuple[Float64, Float64, float]:
-        """Factors and shapes up to the last wanted one, and how far all are known."""
+    def iterate(
+        self, inverse: _Inverse, progress: Progress | None
+    ) -> tuple[Float64, Float64, list[FactorCount]]:
+        """Factors and shapes up to the last wanted one, and how they were counted."""
         tell = progress or (lambda done, wanted: None)
-        free = self.free
-        held = np.zeros(0, np.int64)
-        if free is not None:
-            held = determinate_rows(free.motions)
-        keep = np.setdiff1d(np.arange(self.n), held)
-        inner = self.stiffness
-        if len(held):
-            inner = sp.csr_matrix(inner[keep][:, keep])
-        with factorize(inner, solver=self.solver) as factor:
-
-            def operator(block: Float64) -> Float64:
-                load = -(self.differential @ block)
-                if free is None:
-                    return factor.solve(np.asfortranarray(load))
-                moved = np.zeros_like(load)
-                balanced = free.balanced(load)[keep]
-                moved[keep] = factor.solve(np.asfortranarray(balanced))
-                return free.in_mean_axes(moved)
-
-            wanted = self.count or 8
-            lanczos = BlockLanczos(
-                operator,
-                self.stiffness,
-                block=int(np.clip(wanted // 4, 4, 8)),
-                reserve=4 * wanted + 64,
-            )
-            for attempt in range(_ATTEMPTS):
-                pairs, leading, known = self._grow(lanczos, tell)
-                factors = 1.0 / pairs.theta[:leading]
-                missing = sum(
-                    c.counted - c.found
-                    for c in self.counts(factors, self.chosen(factors), known)
-                )
-                if missing <= 0 or lanczos.exhausted or attempt == _ATTEMPTS - 1:
-                    break
-                look_again(lanczos, pairs, missing)
-            return factors, lanczos.vectors(pairs, np.arange(leading)), known
+        wanted = self.count or 8
+        lanczos = BlockLanczos(
+            lambda block: inverse(-(self.differential @ block)),
+            self.stiffness,
+            block=int(np.clip(wanted // 4, 4, 8)),
+            reserve=4 * wanted + 64,
+        )
+        for attempt in range(_ATTEMPTS):
+            pairs, leading, known = self._grow(lanczos, tell)
+            factors = 1.0 / pairs.theta[:leading]
+            counts = self.counts(factors, known)
+            missing = sum(c.counted - c.found for c in counts)
+            if missing <= 0 or lanczos.exhausted or attempt == _ATTEMPTS - 1:
+                break
+            look_again(lanczos, pairs, missing)
+        return factors, lanczos.vectors(pairs, np.arange(leading)), counts
 
     def _grow(
         self, lanczos: BlockLanczos, tell: Callable[[int, int], None]
@@ -263,10 +327,14 @@ class _Problem:
                 return pairs, leading, known
             look = lanczos.size + max(16, lanczos.size // 8)
 
-    def counts(
-        self, factors: Float64, chosen: npt.NDArray[np.intp], known: float
-    ) -> list[FactorCount]:
-        """Counts beyond the last chosen factors, on each side that is wanted."""
+    def counts(self, factors: Float64, known: float) -> list[FactorCount]:
+        """Counts beyond the last chosen factors, on each side that is wanted.
+
+        Args:
+            factors: that were found, ascending in magnitude.
+            known: magnitude below which none is missing, by the iteration.
+        """
+        chosen = self.chosen(factors)
         last = -1.0 if not len(chosen) else abs(float(factors[chosen[-1]]))
         found = []
         for sign, limit in ((1.0, self.high), (-1.0, -self.low)):

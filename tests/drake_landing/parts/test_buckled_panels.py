@@ -91,6 +91,26 @@ def test_an_answer_is_found_again(columns, tmp_path):
     assert again.table.equals(first.table)
 
 
+def test_the_table_ends_where_modes_of_few_panels_fill_a_case(columns):
+    """There are two columns: of six modes of a case none tells of a third panel."""
+    asked = found(columns, count=3)
+    assert len(asked.table) == 2
+    assert asked.known_below > asked.table.factor.max()
+    assert np.isfinite(asked.known_below)
+
+
+@pytest.mark.parametrize("order", [[0, 1], [1, 0]])
+def test_the_order_of_the_cases_does_not_matter(columns, order):
+    """Above the panels of the cases before nothing is looked for."""
+    state, names = states(columns), {0.1: "both", 0.2: "the second"}
+    chosen = dict([list(names.items())[k] for k in order])
+    elements = inventory(columns, {})
+    panels = buckled_panels(columns, elements, state[:, order], chosen, 1, Cache(None))
+    assert panels.table.factor[0] == pytest.approx(EULER * 2e-6 / 1e3, rel=1e-4)
+    assert panels.table.reason[0] == "both"
+    assert panels.complete
+
+
 def test_tension_buckles_nothing(columns):
     nothing = buckled_panels(
         columns,
