@@ -27,13 +27,13 @@ from fem.model.differential import (
 )
 from fem.model.structure import Structure
 from fem.recovery.grid_forces import strain_energy
+from fem.solution.element_results import write_element_results
 from fem.solution.options import Options
 from fem.solution.requests import ids_of, wanted
 from fem.solution.static import (
     StaticSolution,
     solve_statics,
     static_solutions,
-    write_element_results,
 )
 
 _PRINTED = 40

@@ -20,11 +20,11 @@ from fem.recovery.grid_forces import strain_energy
 from fem.response.modal import residual_vectors
 from fem.solution.analysis_model import AnalysisModel, analysis_model
 from fem.solution.eigrl import request
+from fem.solution.element_results import write_element_results, write_grid_forces
 from fem.solution.holding import solve_or_hold
 from fem.solution.options import Options
 from fem.solution.requests import check_free, ids_of
 from fem.solution.requests import wanted as asked
-from fem.solution.static import write_element_results, write_grid_forces
 
 _PRINTED = 60
 
