@@ -151,8 +151,8 @@ def test_an_unedited_deck_is_the_plain_one(folders):
     assert found["unedited"][1] == pytest.approx(found["plain"][1], rel=1e-5)
 
 
-def test_an_unedited_deck_lands(folders, capsys, monkeypatch):
-    monkeypatch.setenv("DRAKE_LANDING_PICTURES", "off")
+@pytest.mark.usefixtures("blank_curves")
+def test_an_unedited_deck_lands(folders, capsys):
     folder = folders["unedited"]
     arguments = ["run", str(folder / "case.yaml"), "--out", str(folder / "out")]
     status = guarded(app, arguments)

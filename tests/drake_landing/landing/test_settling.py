@@ -100,11 +100,11 @@ def test_a_landing_that_ends_by_itself_has_the_extremes_of_a_longer_one(
     assert (missed[counts] / size[counts]).max() < 0.05
 
 
+@pytest.mark.usefixtures("blank_curves")
 def test_a_run_that_is_too_short_says_so(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Ended by the limit while loads still grow."""
-    monkeypatch.setenv("DRAKE_LANDING_PICTURES", "off")
     for module in (settling, flight, run):
         monkeypatch.setattr(module, "LIMIT", 0.1)
     monkeypatch.setattr(settling, "_LEAST", 0.05)

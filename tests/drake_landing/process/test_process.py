@@ -191,10 +191,10 @@ def test_progress_tells_every_stage(stages: Stages, result: ProcessResult) -> No
     assert max(stages.shares) == pytest.approx(1)
 
 
+@pytest.mark.usefixtures("blank_curves")
 def test_practices_and_a_page_without_pictures(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("DRAKE_LANDING_PICTURES", "off")
     case = variant(("duration: 0.4", "duration: 0.1"), ("step: 5.0e-4", "step: 1.0e-3"))
     monkeypatch.setenv("DRAKE_LANDING_CACHE", str(tmp_path / "cache"))
     done = run_case(case, tmp_path, practices=True)

@@ -114,6 +114,7 @@ def test_check_accepts_more_fixed_interface_modes_than_interface(
     assert "6 rigid-body motions, no mechanism" in told
 
 
+@pytest.mark.usefixtures("blank_curves")
 def test_the_whole_process_runs_on_matrices(reduced: Path, tmp_path: Path) -> None:
     result = run_case(case_of(matrices(reduced, "reduced.h5")), tmp_path)
     # The direct transient runs on the matrices, whose modes the landing selects from.
