@@ -36,10 +36,10 @@ def point_errors(
     return np.sqrt((missing**2).sum((0, 2)) / (whole**2).sum((0, 2)))
 
 
-def frequency_for(
-    all_shapes: ModalModel, pulses: Sequence[GearPulses], error: float = WANTED
-) -> float | None:
+def frequency_for(all_shapes: ModalModel, pulses: Sequence[GearPulses]) -> float | None:
     """Frequency (Hz, rounded up) below which all modes keep the error at all points.
+
+    The error is `WANTED`.
 
     None: even all shapes but the highest do not.
     """
@@ -49,7 +49,7 @@ def frequency_for(
         middle = (low + high) // 2
         if (
             point_errors(all_shapes, below(all_shapes, elastic[middle]), pulses).max()
-            <= error
+            <= WANTED
         ):
             high = middle
         else:

@@ -137,7 +137,7 @@ def run_campaign(
     tell, out = progress or Silent(), Path(out)
     tell.stage("expanding the campaign")
     rows, cases = expand(campaign)
-    prepared, of_case = _prepare(campaign, cases, out, tell)
+    prepared, of_case = _prepare(cases, out, tell)
     tasks = _tasks(cases, prepared, of_case, out / "cases")
     with engine(pool or Pool()) as pool_:
         _fly(pool_, tasks, tell)
@@ -184,7 +184,7 @@ def _named_gears(case: Case):
 
 
 def _prepare(
-    campaign: Campaign, cases: Sequence[Case], out: Path, tell: Reporter
+    cases: Sequence[Case], out: Path, tell: Reporter
 ) -> tuple[dict[str, Prepared], dict[int, str]]:
     prepared: dict[str, Prepared] = {}
     of_case = {}

@@ -39,19 +39,14 @@ def exceedance(values: Float64, confidence: float = 0.9) -> pd.DataFrame:
     )
 
 
-def exceedance_tables(
-    quantities: pd.DataFrame, confidence: float = 0.9
-) -> pd.DataFrame:
+def exceedance_tables(quantities: pd.DataFrame) -> pd.DataFrame:
     """Of many quantities: columns `quantity` and those of `exceedance`.
 
     Args:
         quantities: one row a landing, one column a quantity; magnitudes are taken.
-        confidence: see `exceedance`.
     """
     tables = [
-        exceedance(quantities[name].abs().to_numpy(float), confidence).assign(
-            quantity=name
-        )
+        exceedance(quantities[name].abs().to_numpy(float)).assign(quantity=name)
         for name in quantities.columns
     ]
     if not tables:

@@ -14,7 +14,7 @@ from pydantic import (
 
 from drake_landing.case.lift import AnyLift
 from drake_landing.case.lift import Lift as Lift
-from drake_landing.case.presets import LANDING_SINK_RATE, PRESETS, Preset, PresetName
+from drake_landing.case.presets import LANDING_SINK_RATE, PRESETS, PresetName
 from drake_landing.case.runway import RunwaySection
 from drake_landing.case.section import Section, number
 
@@ -139,11 +139,6 @@ class Scenario(Section):
             f"25.723(b); {self.sink_rate:g} ft/s would be "
             f"{0.3048 * self.sink_rate:.3g} m/s",
         )
-
-    @property
-    def preset_data(self) -> Preset | None:
-        """Of the preset, if any."""
-        return PRESETS[self.preset] if self.preset else None
 
     @property
     def gravity(self) -> bool:

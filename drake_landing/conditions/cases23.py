@@ -28,6 +28,7 @@ from drake_landing.conditions.rolling25 import (
 from drake_landing.conditions.statics import at_rest, reactions, resting
 from drake_landing.conditions.towing25 import POUND_FORCE, towing
 from drake_landing.conditions.turning25 import pivoting
+from drake_landing.landing.lift import STANDARD_GRAVITY
 
 FOOT = 0.3048
 LIFT = 2.0 / 3.0
@@ -41,9 +42,9 @@ TOW = 0.3
 FLAT = 0.6
 
 
-def sink_rate(mass: float, wing_area: float, gravity: float = 9.80665) -> float:
+def sink_rate(mass: float, wing_area: float) -> float:
     """23.473(d): 4.4 (W/S)^¼ ft/s, lb and ft², between 7 and 10 ft/s; in m/s."""
-    loading = mass * gravity / POUND_FORCE / (wing_area / FOOT**2)
+    loading = mass * STANDARD_GRAVITY / POUND_FORCE / (wing_area / FOOT**2)
     return FOOT * min(max(4.4 * loading**0.25, 7.0), 10.0)
 
 

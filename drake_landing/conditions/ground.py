@@ -12,6 +12,7 @@ from typing import Literal
 
 import numpy as np
 
+from drake_landing.landing.lift import STANDARD_GRAVITY
 from fem.arrays import Float64
 
 Role = Literal["nose", "main", "tail"]
@@ -108,7 +109,7 @@ class GroundAircraft:
     pitch_damping: float | None = None
     wing_area: float | None = None
     stall_speed: float | None = None
-    gravity: float = 9.80665
+    gravity: float = STANDARD_GRAVITY
 
     @property
     def weight(self) -> float:

@@ -98,12 +98,12 @@ def one_gear(aircraft: GroundAircraft) -> Iterator[BookCase]:
         )
 
 
-def side(aircraft: GroundAircraft, share: float = SIDE_SHARE) -> Iterator[BookCase]:
+def side(aircraft: GroundAircraft) -> Iterator[BookCase]:
     """25.485: half the vertical load; of that 0.8 inward, and 0.6 outward, at once."""
     for sign, toward in SIDES:
         loads: list[GearLoad] = []
         for gear in aircraft.mains:
-            z, at = share * largest(gear), aircraft.side(gear)
+            z, at = SIDE_SHARE * largest(gear), aircraft.side(gear)
             # A load to starboard points inward on a port gear.
             ratio = {-sign: INWARD, sign: OUTWARD}.get(at, 0.5 * (INWARD + OUTWARD))
             loads.append(load(gear, "ground", vertical=z, side=sign * ratio * z))

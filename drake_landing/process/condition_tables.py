@@ -1,14 +1,11 @@
 """Tables of the static cases of the rules: SI units."""
 
-from collections.abc import Sequence
-
 import numpy as np
 import pandas as pd
 
 from drake_landing.conditions.balance import Holds, RigidBalance
 from drake_landing.conditions.build import OnGround
 from drake_landing.conditions.ground import STATES, GearLoad
-from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.results.units import with_units
 from fem.arrays import Float64
 
@@ -60,14 +57,11 @@ def gear_table(balances: list[RigidBalance]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=columns)
 
 
-def place_table(
-    ground: OnGround, gears: Sequence[LandingGear], R_AB: Float64
-) -> pd.DataFrame:
+def place_table(ground: OnGround, R_AB: Float64) -> pd.DataFrame:
     """Axle and ground point of each gear in each pose, from the center of gravity, G.
 
     Args:
         ground: the aircraft.
-        gears: in B.
         R_AB: (3, 3).
     """
     rows = []

@@ -327,7 +327,7 @@ def _run(
     if cost:
         yield _line(
             "",
-            f"about {_expected(case, structure, cost, length, steps)} of processor "
+            f"about {_expected(case, cost, length, steps)} of processor "
             f"time{compilation_remark()}",
         )
 
@@ -350,9 +350,7 @@ def _conditions(case: Case, aircraft: Aircraft, structure: Structure) -> Iterato
         yield _line("" if i else "conditions", f"{number:<16}{text}")
 
 
-def _expected(
-    case: Case, structure: Structure, cost: Cost, length: float, steps: float
-) -> str:
+def _expected(case: Case, cost: Cost, length: float, steps: float) -> str:
     """How long the run takes, one digit: modes unknown, so a guess of their number."""
     select = case.airframe.select
     modes = select.value if select.kind in ("count", "relevance", "pulses") else 80

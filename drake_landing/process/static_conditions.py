@@ -194,7 +194,7 @@ def solve(
         applied=applied,
         left_out=left_out,
         balances=tuple(balances),
-        places=place_table(ground, aircraft.gears, R_AB),
+        places=place_table(ground, R_AB),
         cases=case_table(balances).assign(text=texts),
         gear_loads=gear_table(balances),
         attachment_loads=attachment_table(held, split, balances),

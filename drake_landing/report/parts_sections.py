@@ -71,7 +71,7 @@ def parts_sections(
         yield _panels(result)
     yield _equipment(result)
     if result.practices is not None:
-        yield _practices(result, result.practices)
+        yield _practices(result.practices)
 
 
 def _stresses(
@@ -351,7 +351,7 @@ def _equipment_row(
     return {**row, "spectrum": float(spectrum[at]), "hertz": float(SPECTRUM_HZ[at])}
 
 
-def _practices(result: "ProcessResult", practices: Practices) -> Section:
+def _practices(practices: Practices) -> Section:
     rows = []
     table = practices.table
     for kind, quantity in dict.fromkeys(zip(table.kind, table.quantity)):

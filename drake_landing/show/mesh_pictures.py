@@ -70,10 +70,13 @@ def draw_mesh(path: Path, mesh: DrawnMesh) -> None:
     _save(plotter, path)
 
 
-def draw_modes(path: Path, mesh: DrawnMesh, modes: ShownModes, first: int = 10) -> None:
+_MOST_MODES = 10  # in one picture
+
+
+def draw_modes(path: Path, mesh: DrawnMesh, modes: ShownModes) -> None:
     """Deformed shapes of the lowest modes, coloured by displacement."""
     vista = _vista()
-    count = min(first, len(modes.names))
+    count = min(_MOST_MODES, len(modes.names))
     if count == 0:
         return
     columns = min(5, count)

@@ -1,6 +1,5 @@
 """`drake-landing show`: reads a deck, draws it, and says what was drawn."""
 
-from collections.abc import Callable
 from pathlib import Path
 
 from drake_landing.csv_tables import write_csv
@@ -13,16 +12,13 @@ from fem.errors import InputError
 from fem.model.structure import Structure
 
 
-def show_model(
-    deck: Path, out: Path, modes: int, tell: Callable[[str], None] = print
-) -> list[Path]:
-    """Writes `mesh.png`, `modes.png`, `modes.csv` and `viewer.html`.
+def show_model(deck: Path, out: Path, modes: int) -> list[Path]:
+    """Writes `mesh.png`, `modes.png`, `modes.csv` and `viewer.html`, and says so.
 
     Args:
         deck: bulk-data file.
         out: folder.
         modes: number of elastic modes, 0 for the mesh alone.
-        tell: hears what was found, line by line.
 
     Returns:
         The files.
@@ -39,17 +35,17 @@ def show_model(
     out.mkdir(parents=True, exist_ok=True)
     files = [out / "mesh.png", out / "viewer.html"]
     draw_mesh(files[0], mesh)
-    tell(f"{deck}: {len(mesh.p)} grids, {len(mesh.components)} components")
+    print(f"{deck}: {len(mesh.p)} grids, {len(mesh.components)} components")
     shown: ShownModes | None = None
     if modes:
         shown = shown_modes(structure, mesh, modes)
         for k, (hertz, name) in enumerate(zip(shown.frequency_hz, shown.names)):
-            tell(f"mode {k + 1:3}  {hertz:9.3f} Hz  {name}")
+            print(f"mode {k + 1:3}  {hertz:9.3f} Hz  {name}")
         if len(shown.names):
             files += [out / "modes.png", out / "modes.csv"]
             draw_modes(files[2], mesh, shown)
             table = shown.table(mesh)
             write_csv(files[3], table)
     write_viewer(files[1], deck.stem, mesh, shown)
-    tell("written: " + ", ".join(map(str, files)))
+    print("written: " + ", ".join(map(str, files)))
     return files

@@ -1,6 +1,6 @@
 """Checks of a whole deck: references, duplicates, selected sets, coordinate systems."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import NamedTuple
 
@@ -220,16 +220,14 @@ class Selected(NamedTuple):
 _MAY_BE_ABSENT = frozenset({"spc", "mpc"})
 
 
-def check_selected(deck: Deck, sol: int, parts: Iterable[Deck] = ()) -> Selected:
-    """Sets that the case control selects and that neither deck nor parts have."""
+def check_selected(deck: Deck, sol: int) -> Selected:
+    """Sets that the case control selects and that the deck does not have."""
     problems: list[str] = []
     notices: list[str] = []
     for attribute, names, solutions in _SELECTED:
         if solutions and sol not in solutions:
             continue
-        known = {0}
-        for part in (deck, *parts):
-            known.update(ids(part.cards, names, "sid").tolist())
+        known = {0, *ids(deck.cards, names, "sid").tolist()}
         for subcase in deck.case_control:
             number = getattr(subcase, attribute)
             if number not in known and attribute in _MAY_BE_ABSENT:

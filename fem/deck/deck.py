@@ -51,7 +51,6 @@ class Deck:
         notices: what was ignored, replaced or understood, for the user to read.
         ignored: names of unsupported cards that the user wanted left out, and that
             the deck has.
-        superelements: bulk data of BEGIN SUPER=n sections by n.
         components: superelements that a solution reduces, in their order.
         external: kind and name of the DMIG that are matrices of external superelements.
         increments: elements of BEGIN MASSID=n sections by n, on the points of the deck.
@@ -65,7 +64,6 @@ class Deck:
     executive: tuple[str, ...] = ()
     notices: tuple[str, ...] = ()
     ignored: tuple[str, ...] = ()
-    superelements: "Mapping[int, Deck]" = field(default_factory=dict)
     components: tuple[Superelement, ...] = ()
     external: tuple[tuple[str, str], ...] = ()
     increments: "Mapping[int, Deck]" = field(default_factory=dict)

@@ -46,16 +46,12 @@ from fem.deck.unsupported import take_unsupported
 from fem.errors import InputError
 
 
-def read_deck(
-    path: str | Path, *, ignore: Collection[str] = (), superelements: bool = False
-) -> Deck:
+def read_deck(path: str | Path, *, ignore: Collection[str] = ()) -> Deck:
     """Read a Nastran deck with its INCLUDE files.
 
     Args:
         path: the deck; a file of bulk data alone (punch) will do.
         ignore: names of unsupported cards to go on without; recorded in the notices.
-        superelements: BEGIN SUPER=n sections as decks of their own, for callers that
-            reduce them; else they are joined with the main section to one model.
 
     Raises:
         InputError: everything that is wrong with the deck, each with file and line.
@@ -91,7 +87,7 @@ def read_deck(
         problems += check_sections(deck, parts)
     subcases = list(case.subcases)
     of_parts: Mapping[int, Sequence[Mapping[str, pd.DataFrame]]] = {}
-    if parts and not superelements and not problems:
+    if parts and not problems:
         for number, part in parts.items():
             cards, subcases = with_chosen_sets(
                 part.cards, number, subcases, (*STATIC_LOADS, "LOAD")
@@ -103,7 +99,7 @@ def read_deck(
         except InputError as error:
             problems += error.problems
         deck, whole = in_one_piece(deck, parts)
-        parts, of_parts = {}, whole.increments
+        of_parts = whole.increments
         problems += whole.problems
         notices += whole.notices
         if not problems:
@@ -119,7 +115,7 @@ def read_deck(
     if not problems:
         solved, _ = split_subcases(deck.case_control)
         chosen = replace(deck, case_control=tuple(solved))
-        found = check_selected(chosen, executive.sol, parts.values())
+        found = check_selected(chosen, executive.sol)
         problems += found.problems
         notices += found.notices
     if problems:
@@ -136,7 +132,6 @@ def read_deck(
         executive=executive.statements,
         notices=tuple(dict.fromkeys(notices)),
         ignored=deck.ignored,
-        superelements=parts,
         components=components,
         external=deck.external,
         increments=increments,

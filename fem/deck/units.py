@@ -56,9 +56,8 @@ def in_si(deck: Deck, units: Units) -> Deck:
         with problems.gathered():
             cards[name] = _converted(TABLES[name], table, units, frames, deck.cards)
     problems.report()
-    parts = {n: in_si(part, units) for n, part in deck.superelements.items()}
     increments = {n: in_si(part, units) for n, part in deck.increments.items()}
-    return replace(deck, cards=cards, superelements=parts, increments=increments)
+    return replace(deck, cards=cards, increments=increments)
 
 
 def _converted(

@@ -157,7 +157,7 @@ def retained_modes(deck: Deck, modes: Modes) -> Modes:
     )
 
 
-def scaled_shapes(modes: Modes, shapes: Float64, norm: str) -> Float64:
+def scaled_shapes(shapes: Float64, norm: str) -> Float64:
     """Shapes (g, m) normalised as EIGRL's NORM says."""
     if not norm.upper().startswith("MAX") or shapes.size == 0:
         return shapes
@@ -174,7 +174,7 @@ def _write(
 ) -> None:
     subcase, points = model.subcase, model.points
     norm = str(eigrl(model.deck, subcase)["norm"] or "MASS")
-    shapes = scaled_shapes(modes, reduced.expand @ modes.shape, norm)
+    shapes = scaled_shapes(reduced.expand @ modes.shape, norm)
     results.write(f"{name}/frequency_hz", modes.frequency_hz)
     mass = np.einsum("gm,gm->m", shapes, model.matrices.mass @ shapes)
     results.write(f"{name}/modal_mass", mass)

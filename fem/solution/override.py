@@ -93,7 +93,7 @@ def as_solution(deck: Deck, number: int) -> tuple[Deck, list[str]]:
         told.append(f"{_named(left)} left out")
     cards = dict(deck.cards)
     if number in _NEED_MODES and not all(case.method for case in kept):
-        method, text = _method(deck, cards)
+        method, text = _method(cards)
         kept = [case if case.method else replace(case, method=method) for case in kept]
         told.append(text)
     return replace(deck, sol=number, case_control=tuple(kept), cards=cards), told
@@ -117,7 +117,7 @@ def _once(cases: Sequence[Subcase]) -> list[Subcase]:
     return list(first.values())
 
 
-def _method(deck: Deck, cards: dict[str, pd.DataFrame]) -> tuple[int, str]:
+def _method(cards: dict[str, pd.DataFrame]) -> tuple[int, str]:
     """The number of an EIGRL, added to the cards where there is none; in words."""
     table = cards["EIGRL"]
     if len(table):

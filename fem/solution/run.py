@@ -123,10 +123,10 @@ def solution_problems(path: Path) -> list[str]:
     asked = {asked_by(case, number) for case in cases}
     if number and not asked & _SOLVERS.keys():
         return [_unsupported(path, number, cases)]
-    return _heat(path, sections)
+    return _heat(sections)
 
 
-def _heat(path: Path, sections: Sections) -> list[str]:
+def _heat(sections: Sections) -> list[str]:
     """That a deck asks for temperatures: APP HEAT, PARAM,HEATSTAT,YES."""
     for lines, name, pattern in (
         (sections.executive, "APP HEAT", r"\s*APP\w*[\s,]+HEAT\b"),

@@ -116,7 +116,6 @@ def AddEnergyBudget(
     builder: DiagramBuilder,
     plant: MultibodyPlant,
     systems: Sequence[LeafSystem],
-    unit: float = 1e5,
 ) -> Any:
     """Adds the system `energy_budget` and connects it.
 
@@ -125,13 +124,12 @@ def AddEnergyBudget(
         plant: finalised.
         systems: each with its own name, and with any of the ports `energy`,
             `dissipated_power` and `external_power`.
-        unit: see EnergyBudget, J.
     """
     by_port = {
         port: [s for s in systems if s.HasOutputPort(port)] for port in _KIND_OF_PORT
     }
     names = [[system.get_name() for system in group] for group in by_port.values()]
-    budget = EnergyBudget(plant, *names, unit=unit)
+    budget = EnergyBudget(plant, *names)
     builder.AddNamedSystem("energy_budget", budget)
     builder.Connect(plant.GetOutputPort("state"), budget.GetInputPort("plant_state"))
     for port, group in by_port.items():

@@ -97,10 +97,10 @@ class TireSize:
         share = (max(deflection, 0.0) / self.diameter) ** (1.0 / 3.0)
         return 0.7 * self.diameter * pressure * share
 
-    def over_deflection(self, law, first: float = 0.0) -> Table:
+    def over_deflection(self, law) -> Table:
         """Table of one of the laws above over deflections up to half the radius."""
         last = 0.25 * self.diameter
-        x = [first + (last - first) * i / (_POINTS - 1) for i in range(_POINTS)]
+        x = [last * i / (_POINTS - 1) for i in range(_POINTS)]
         return Table(x, [law(value) for value in x])
 
 

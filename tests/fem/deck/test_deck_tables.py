@@ -222,8 +222,7 @@ def test_reference_decks_read_and_are_placed_as_pynastran_places_them(references
 
 
 @pytest.mark.parametrize("name", SUPERELEMENTS)
-def test_superelement_decks_read_on_request(references, name):
-    path = references / f"reduction/cantilever_bar/{name}.dat"
-    deck = read_deck(path, superelements=True)
-    assert sorted(deck.superelements) == [1, 2]
-    assert all(len(part.cards["CBAR"]) == 5 for part in deck.superelements.values())
+def test_superelement_decks_are_one_model(references, name):
+    deck = read_deck(references / f"reduction/cantilever_bar/{name}.dat")
+    assert len(deck.cards["CBAR"]) == 10
+    assert [component.number for component in deck.components] == [1, 2]

@@ -1,6 +1,5 @@
 """Text of decks: fields, continuations, INCLUDE, encodings, sections."""
 
-import numpy as np
 import pytest
 
 from fem.deck.reader import read_deck
@@ -182,7 +181,7 @@ def test_missing_enddata_is_a_notice(tmp_path):
     assert any("ENDDATA" in notice for notice in read_deck(path).notices)
 
 
-def test_superelements_are_joined_or_read_one_by_one(tmp_path):
+def test_superelements_are_joined(tmp_path):
     path = tmp_path / "a.bdf"
     path.write_text(
         "SOL 103\nCEND\nBEGIN BULK\nGRID,1\nSEBULK,1,PRIMARY\nSECONCT,1,0\n,1,1\n"
@@ -191,9 +190,6 @@ def test_superelements_are_joined_or_read_one_by_one(tmp_path):
     joined = read_deck(path)
     assert len(joined.cards["GRID"]) == 2
     assert any("one model in statics" in notice for notice in joined.notices)
-    deck = read_deck(path, superelements=True)
-    assert deck.superelements[1].cards["GRID"]["id"].tolist() == [1, 2]
-    assert np.array_equal(deck.cards["SECONCT"]["gidas"][0], [1])
 
 
 def test_free_fields_go_on_after_a_comma(read):
