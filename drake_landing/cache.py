@@ -57,7 +57,7 @@ class Cache:
 
     @classmethod
     def of_user(cls) -> "Cache":
-        """Where environment and platform say.
+        """The cache where environment and platform say.
 
         Raises:
             InputError: DRAKE_LANDING_CACHE_GB is no size.
@@ -248,7 +248,7 @@ def _checksum(file: Path) -> str:
 
 @once
 def source_key(*packages: str) -> str:
-    """Of the program text of packages and all below them."""
+    """Hash of the program text of packages and of all below them."""
     texts = [
         file.read_text(encoding="utf-8")
         for package in packages

@@ -36,7 +36,7 @@ def plain_ticks(figure: Figure) -> None:
 
 
 def _labels(axis: Axis) -> Callable[[float, int], str]:
-    """Of a logarithmic axis: fewer digits, the more decades it has."""
+    """Tick labels of a logarithmic axis: fewer digits, the more decades it has."""
     low, high = axis.get_view_interval()
     decades = float(np.log10(high / low))
     digits = "1" if decades > _MOST_DECADES else "125" if decades > 1.0 else "123456789"

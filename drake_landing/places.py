@@ -111,7 +111,7 @@ class Panel:
 
 @dataclass(frozen=True, kw_only=True)
 class Places:
-    """Where the parts are looked at.
+    """Places at which the parts are looked at.
 
     Attributes:
         beams: cut at stations.

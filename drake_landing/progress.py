@@ -18,7 +18,7 @@ _PLAIN_INTERVAL = 5.0  # s between lines of one stage
 
 
 class Reporter(Protocol):
-    """What the process tells while it works."""
+    """Listener to the progress of the process."""
 
     def stage(self, text: str) -> None:
         """The next stage begins; the one before is complete."""
@@ -102,7 +102,7 @@ def reporter(stream: TextIO | None = None) -> Iterator[Reporter]:
 
 @contextmanager
 def told_when_interrupted(kept: Callable[[], str]) -> Iterator[None]:
-    """On an interrupt a line on standard error: what is kept, and how to go on.
+    """Prints a line when interrupted: what is kept, and how to go on.
 
     Args:
         kept: makes the line, at the moment of the interrupt, which goes on.

@@ -7,6 +7,6 @@ _PACKAGES = ("drake-landing", "drake", "numpy", "scipy", "pandas", "pynastran")
 
 
 def versions() -> dict[str, str]:
-    """Of the program and what its figures depend on."""
+    """Versions of the program and of the packages that its figures depend on."""
     found = {name: importlib.metadata.version(name) for name in _PACKAGES}
     return {**found, "python": platform.python_version()}

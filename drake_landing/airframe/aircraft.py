@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class Aircraft:
-    """What a case says of the aircraft, complete.
+    """All that a case says of the aircraft.
 
     Attributes:
         name: for tables and titles.
@@ -87,7 +87,7 @@ class Aircraft:
         return self.steady
 
     def known_places(self, structure: Structure) -> Places | None:
-        """Where one looks at this aircraft, if its generator knows."""
+        """Places to look at that the aircraft's generator knows."""
         if self.parametric is None or self.parametric.places is None:
             return None
         return self.parametric.places(structure)

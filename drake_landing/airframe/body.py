@@ -64,7 +64,7 @@ class AirframeModel:
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """What the user should know about the model."""
+        """Remarks on the model that the user should read."""
         of_model = (*self.structure.notices, *self.structure.damping_notices)
         return (*of_model, *self.basis.notices)
 

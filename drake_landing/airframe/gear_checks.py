@@ -82,7 +82,7 @@ def check_gears(
 def gear_problems(
     gears: Sequence[LandingGear], places: Mapping[str, Float64]
 ) -> list[str]:
-    """What cannot be: each begins with the field, `gears.main_left.axle: found ...`.
+    """Gear data that cannot be; each text begins with the field, `gears.left.axle: `.
 
     Args:
         gears: in A.
@@ -154,7 +154,7 @@ def leg_problems(
 def gear_remarks(
     gears: Sequence[LandingGear], mass: float, p_AG: npt.ArrayLike
 ) -> tuple[str, ...]:
-    """What is odd: loads at rest against gas and tires; each begins with the field.
+    """Odd loads at rest against gas and tires; each begins with the field.
 
     Args:
         gears: in A.
@@ -257,7 +257,7 @@ def _strut_share(gear: LandingGear) -> float:
 
 
 def _tire_remarks(gear: LandingGear, load: float) -> list[str]:
-    """Of the common tire where it bears its share; of single ones beside it."""
+    """Remarks on the common tire, where it bears its share, and on single tires."""
     each, remarks = load / len(gear.wheel_names), []
     tires = {"tyre": gear.tyre} if len(gear.tyres) < len(gear.wheel_names) else {}
     tires |= {f"tyres.{wheel}": tire for wheel, tire in gear.tyres.items()}

@@ -170,7 +170,7 @@ class Loaded:
 
 
 def loaded(structure: Structure, gears: tuple[LandingGear, ...]) -> Loaded:
-    """Of an airframe with its gears, B."""
+    """Mass, center of mass and inertia of an airframe with its gears, in B."""
     own = structure.rigid_mass
     items = [(own.total, own.center), *(p for g in gears for p in mass_points(g))]
     mass = sum(m for m, _ in items)

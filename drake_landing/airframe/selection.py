@@ -109,7 +109,7 @@ class Candidates:
         scenario: Scenario,
         cache: Cache | None = None,
     ) -> "Candidates":
-        """Of a basis of a structure.
+        """Candidates that the modes of a basis give.
 
         Args:
             structure: the full model.

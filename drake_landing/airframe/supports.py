@@ -47,7 +47,7 @@ class Supports:
 
 
 def supports_of(structure: Structure) -> Supports | None:
-    """What SPC and PS hold against stiffness; None where they hold nothing.
+    """Freedoms that SPC and PS hold against stiffness; None where there are none.
 
     Freedoms that AUTOSPC constrains, and others without stiffness, are no supports.
     """

@@ -69,7 +69,7 @@ class BaseCase:
             self._gears = None
 
     def with_gears(self, gears: Sequence[LandingGear]) -> "BaseCase":
-        """The same, with the gears of a named set written out."""
+        """The base case with the gears of a named set written out."""
         found = copy.copy(self)
         found._gears = [json.loads(g.model_dump_json(by_alias=True)) for g in gears]
         return found

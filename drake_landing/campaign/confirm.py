@@ -45,7 +45,7 @@ class BlockTask:
 
     @property
     def each(self) -> "list[BlockTask]":
-        """Its landings, one by one."""
+        """The landings of the block, each a block of its own."""
         return [
             replace(self, numbers=(number,), ends=(end,), keys=(key,))
             for number, end, key in zip(self.numbers, self.ends, self.keys)
@@ -53,7 +53,7 @@ class BlockTask:
 
 
 def confirmed_file(folder: Path, number: int) -> Path:
-    """Of a case that has its direct transient."""
+    """Path of the direct transient's results of a case."""
     return folder / f"{number:06d}.confirmed.h5"
 
 
@@ -99,7 +99,7 @@ def _loads(task: BlockTask) -> tuple[Float64, list[Float64]]:
 
 
 def _held(load: Float64, count: int) -> Float64:
-    """Of that many instants; a last value is held."""
+    """The load at that many instants; its last value is held."""
     if len(load) >= count:
         return load[:count]
     return np.concatenate([load, np.repeat(load[-1:], count - len(load), axis=0)])

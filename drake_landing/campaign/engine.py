@@ -30,7 +30,7 @@ _PAUSE = 0.02  # s between two looks at what is done
 
 @dataclass(frozen=True, kw_only=True)
 class Pool:
-    """Where tasks run.
+    """Place where tasks run: processes of this machine, or a scheduler.
 
     Attributes:
         scheduler: `local`, `here` (this process, one after another), or the address

@@ -340,7 +340,7 @@ def _confirm(
 
 
 def _confirmed_key(task: LandingTask) -> str:
-    """Of everything that its direct transient depends on."""
+    """Hash of everything that a direct transient depends on."""
     return content_key("transient", task.key)
 
 

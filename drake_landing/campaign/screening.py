@@ -63,7 +63,7 @@ class _Intervals:
 
     @classmethod
     def from_samples(cls, q: np.ndarray) -> "_Intervals":
-        """Of amplitudes (r, t); the last one is repeated until intervals are full."""
+        """Intervals of amplitudes (r, t), the last one repeated to fill them."""
         r, t = q.shape
         count = max(1, -(-(t - 1) // _INTERVAL))
         full = np.concatenate(

@@ -21,7 +21,7 @@ _MOST = 200_000  # corners that are kept before they are thinned out
 
 @dataclass(frozen=True, kw_only=True)
 class SectionLoads:
-    """Of one landing, at the cuts of a part or at a monitor point.
+    """Section loads of one landing, at the cuts of a part or at a monitor point.
 
     Attributes:
         station: (n,) m; zero where there is no such thing.
@@ -41,7 +41,7 @@ class SectionLoads:
 
     @classmethod
     def from_hdf5(cls, group: h5py.Group) -> "SectionLoads":
-        """From a case file."""
+        """Reads the section loads of a case file."""
         sides = [
             np.stack([np.asarray(group[k], float) for k in (side, f"time_of_{side}")])
             for side in ("min", "max")
@@ -62,7 +62,7 @@ class SectionLoads:
 
 @dataclass
 class SectionEnvelope:
-    """Of many landings; see `SectionLoads`.
+    """Section loads of many landings; see `SectionLoads`.
 
     Attributes:
         station, quantities, pairs: as there.

@@ -71,7 +71,7 @@ class Known:
 
 
 def known_stress(folder: Path, number: int) -> Known:
-    """Of a landing, from its one file or from both."""
+    """What is known of the stresses of a landing, from its one file or from both."""
     quick, exact, covered = _both(folder, number)
     if exact is None:
         return Known(**quick, confirmed=covered)

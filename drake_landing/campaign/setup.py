@@ -53,7 +53,7 @@ from systems.airframe.modal_body import ModalBody
 
 @dataclass(frozen=True, kw_only=True)
 class LandingSetup:
-    """For landings and their screening.
+    """The part of a setup that landings and their screening need.
 
     Attributes:
         body: the modal body, axes A.
@@ -81,7 +81,7 @@ class LandingSetup:
 
 @dataclass(frozen=True, kw_only=True)
 class TransientSetup:
-    """For direct transients of the full model.
+    """The part of a setup that direct transients of the full model need.
 
     Attributes:
         stiffness, mass, damping: of the free set.
@@ -148,7 +148,7 @@ class Prepared:
 
 
 def airframe_key(case: Case) -> str:
-    """Of what decides about the airframe: cases with one key share a setup."""
+    """Hash of what decides about the airframe: cases with one key share a setup."""
     gears = () if isinstance(case.gears, str) else case.gears
     held = [sorted(g.attachments.values()) for g in gears]
     return content_key(
@@ -188,7 +188,7 @@ def prepare(case: Case, folder: Path, progress: Reporter) -> Prepared:
 
 
 def _key(inputs: str, setup: LandingSetup) -> str:
-    """Of inputs and of the very modes, which may differ where they are made anew."""
+    """Hash of the inputs and of the modes, which may differ when made anew."""
     basis = setup.basis
     return content_key(
         inputs,
@@ -199,7 +199,7 @@ def _key(inputs: str, setup: LandingSetup) -> str:
 
 
 def _input_key(case: Case, aircraft: Aircraft) -> str:
-    """Of everything that modes, static answers and stress modes depend on."""
+    """Hash of all that modes, static answers and stress modes depend on."""
     matrices = case.airframe.matrices
     files = [*aircraft.files]
     files += [] if matrices is None else [*matrices.files, matrices.grids]
@@ -226,7 +226,7 @@ def _input_key(case: Case, aircraft: Aircraft) -> str:
 def _compute(
     case: Case, aircraft: Aircraft, folder: Path, key: str, progress: Reporter
 ) -> dict[str, SetupFile]:
-    """Of an airframe that has no sound files; those of others than this one go."""
+    """Makes the files of an airframe that has no sound ones; files of other keys go."""
     progress.stage(f"{aircraft.name}: deck, matrices, modes")
     structure = aircraft.structure()
     airframe = load_airframe(
@@ -293,7 +293,7 @@ def _kept(folder: Path, key: str) -> dict[str, SetupFile] | None:
 
 
 def _signature(key: str, digests: Mapping[str, str]) -> str:
-    """Of files by this user; empty where no secret can be kept."""
+    """Signature of files that this user wrote; empty where no secret can be kept."""
     secret = _secret()
     if secret is None:
         return ""
@@ -319,7 +319,7 @@ def _secret() -> bytes | None:
 
 
 def read_landing_setup(file: SetupFile) -> LandingSetup:
-    """Of a worker, which keeps the last two that it read.
+    """The setup that a worker flies with; it keeps the last two that it read.
 
     Raises:
         ValueError: the file is not the one that the campaign wrote.

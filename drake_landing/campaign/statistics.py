@@ -40,7 +40,7 @@ def exceedance(values: Float64, confidence: float = 0.9) -> pd.DataFrame:
 
 
 def exceedance_tables(quantities: pd.DataFrame) -> pd.DataFrame:
-    """Of many quantities: columns `quantity` and those of `exceedance`.
+    """Exceedances of many quantities: `quantity` and the columns of `exceedance`.
 
     Args:
         quantities: one row a landing, one column a quantity; magnitudes are taken.

@@ -75,12 +75,12 @@ class LandingTask:
 
 
 def case_file(folder: Path, number: int) -> Path:
-    """Of a case that was flown."""
+    """Path of the result file of a flown case."""
     return folder / f"{number:06d}.h5"
 
 
 def failure_file(folder: Path, number: int) -> Path:
-    """Of a case that could not be flown."""
+    """Path of the file that says why a case could not be flown."""
     return folder / f"{number:06d}.failed.json"
 
 
@@ -264,7 +264,7 @@ def _write_extremes(
     pairs: Sequence[tuple[str, str]],
     loads: AttachmentLoads,
 ) -> None:
-    """Of loads (t, n, q) at n places."""
+    """Writes the extremes of loads (t, n, q) at n places."""
     units = ", ".join("N" if q[0] in "sF" else "N m" for q in quantities)
     low, high = named.argmin(axis=0), named.argmax(axis=0)
     for name, at in (("min", low), ("max", high)):

@@ -10,7 +10,7 @@ Role = Literal["nose", "main", "tail"]
 
 
 class Conditions(Section):
-    """For `drake-landing conditions`: static cases of the rules for the case's mass."""
+    """Static cases of the rules for the mass of a case (`drake-landing conditions`)."""
 
     rules: Literal["CS-25", "CS-23"] = Field(
         default="CS-25", description="CS-25 (14 CFR 25), or CS-23 before Amendment 64"

@@ -34,7 +34,7 @@ class Places:
     def from_yaml(
         cls, file: str, tree: yaml.Node, sections: frozenset[str]
     ) -> "Places":
-        """Of a composed YAML document."""
+        """Places of the fields of a composed YAML document."""
         return cls(file, dict(_lines(tree, "")), sections)
 
     def line(self, path: str) -> int:

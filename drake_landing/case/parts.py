@@ -55,7 +55,7 @@ class Beam(Section):
 
 
 class Component(Section):
-    """What belongs to a component: elements that fit any of these."""
+    """Elements that belong to a component: those that fit any of these."""
 
     properties: tuple[int | Span, ...] = Field(
         default=(), description="property ids, or [first, last]"
@@ -81,7 +81,7 @@ class Panel(Section):
 
 
 class Parts(Section):
-    """What the parts see: allowables and places. The built-in models have their own."""
+    """Allowables and places of the parts. The built-in models have their own."""
 
     ultimate_factor: float = number(
         "margins of safety hold for stresses times this factor", "-", 1.5, gt=0, le=10

@@ -118,7 +118,7 @@ class Scenario(Section):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What is odd; begins with the field."""
+        """Odd values; each remark begins with the field."""
         if self.one_gear:
             return (
                 "scenario.one_gear: tables of gears, tires and energies are those of "

@@ -108,5 +108,5 @@ class Case(Document):
         return self
 
     def transient_duration(self, landing: float) -> float:
-        """Of the direct transient response, s: never beyond the landing's."""
+        """Duration of the direct transient, s: never beyond the landing's."""
         return min(self.transient.duration or landing, landing)

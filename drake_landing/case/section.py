@@ -24,7 +24,7 @@ class Document(Section):
         return self._places
 
     def written_at(self, places: Places) -> Self:
-        """The same document, with the places of its fields."""
+        """Copy of the document with the places of its fields."""
         document = self.model_copy()
         document._places = places
         return document

@@ -49,5 +49,5 @@ def read_case(path: Path) -> "Case":
 
 
 def default_folder(case: "Case") -> Path:
-    """Where the results of a case go."""
+    """Folder for the results of a case, where none is given."""
     return Path("out", case.name)

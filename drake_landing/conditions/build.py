@@ -105,7 +105,7 @@ def _check_names(gears: Sequence[LandingGear], conditions: Conditions) -> None:
 
 
 def _role(name: str, rest: Posed, conditions: Conditions) -> Role:
-    """Of a gear: off the middle main; in the middle by its place to those."""
+    """Role of a gear: main off the middle, else by its place to the main gears."""
     places = rest.places
     x, y, _ = places[name].ground
     if name in conditions.roles:

@@ -100,7 +100,7 @@ def needs_largest(aircraft: GroundAircraft) -> str:
 
 
 def needs_tail_down(aircraft: GroundAircraft) -> str:
-    """The same, tail-down."""
+    """Largest vertical loads of the tail-down landing."""
     known = all(gear.tail_down is not None for gear in aircraft.mains)
     return "" if known else TAIL_DOWN_UNKNOWN
 
@@ -122,7 +122,7 @@ def needs_several_wheels(aircraft: GroundAircraft) -> str:
 
 
 def largest(gear: Gear, *, of: str = "largest") -> float:
-    """Its largest vertical load, N; `needs_largest` sees to it that it is known."""
+    """Largest vertical load of a gear, N; `needs_largest` tells whether it is known."""
     value = getattr(gear, of)
     assert value is not None, f"{gear.name}: {of}"
     return float(value)

@@ -32,7 +32,7 @@ _CUTS = 60  # of a bisection
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Peak:
-    """Of a gear in a landing.
+    """Largest vertical load of a gear in a landing, and the deflections with it.
 
     Attributes:
         vertical: largest load, N.
@@ -55,7 +55,7 @@ class Peaks:
 
 
 def sink_rate(conditions: Conditions, mass: float) -> float:
-    """Of the landings, m/s.
+    """Sink rate of the landings, m/s.
 
     Raises:
         InputError: CS-23 without a wing area.
@@ -159,7 +159,7 @@ def _peak(history: LandingHistory, gear: str) -> Peak:
 
 
 def given_peak(gear: LandingGear, vertical: float) -> Peak:
-    """Of a load that the case gives: deflections of tires and gas spring under it."""
+    """The peak that a load of the case gives: tires and gas spring deflect under it."""
     each = vertical / len(gear.wheel_names)
     tire = {}
     for wheel in gear.wheel_names:

@@ -30,7 +30,7 @@ _TRIES = 20
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Deflections:
-    """Of a gear.
+    """Deflections of a gear's shock absorber and tires.
 
     Attributes:
         stroke: of the shock absorber, m.
@@ -71,7 +71,7 @@ class Posed:
 
     @property
     def height(self) -> float:
-        """Of the center of gravity above the lowest tire's ground, m."""
+        """Height of the center of gravity above the lowest tire's ground, m."""
         return -min(float(place.ground[2]) for place in self.places.values())
 
 
@@ -155,7 +155,7 @@ class GearStand:
         }
 
     def unsprung(self, gear: str) -> RigidMass:
-        """What moves below its shock absorber, A, as it stands now."""
+        """Parts below the gear's shock absorber, in A, as the gear stands now."""
         bodies = self.landing.bodies[gear]
         moving = [*bodies.parts.values(), *bodies.wheels.values()]
         return self._mass([body.index() for body in moving])

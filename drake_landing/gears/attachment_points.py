@@ -43,7 +43,7 @@ def attachment_points(
     bodies: Mapping[str, GearBodies],
     places: Mapping[str, Float64],
 ) -> list[AttachmentPoint]:
-    """Of all gears, in the order of `LandingGear.attachments`.
+    """Attachment points of all gears, in the order of `LandingGear.attachments`.
 
     Raises:
         ValueError: directions are not independent.

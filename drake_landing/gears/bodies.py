@@ -58,7 +58,7 @@ _LATERAL = [0.0, 1.0, 0.0]
 
 @dataclass(frozen=True, kw_only=True)
 class GearBodies:
-    """What `AddLandingGear` added.
+    """Bodies and joints that `AddLandingGear` added.
 
     Attributes:
         fitting: `<gear>_fitting`.

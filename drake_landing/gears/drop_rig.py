@@ -55,11 +55,11 @@ class DropRig:
 
     @property
     def strut(self) -> Any:
-        """Its shock absorber."""
+        """The rig's shock absorber."""
         return self.diagram.GetSubsystemByName("shock_absorbers")
 
     def ToAutoDiffXd(self) -> Self:
-        """The same rig for AutoDiffXd, without logs."""
+        """Copy of the rig for AutoDiffXd, without logs."""
         return replace(
             self, diagram=self.diagram.ToAutoDiffXd(), scalar=AutoDiffXd, loggers={}
         )

@@ -51,7 +51,7 @@ class Data(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
     def changed(self, **values: Any) -> Self:
-        """The same with other values, checked as those of a case are.
+        """Copy with other values, checked as those of a case are.
 
         Args:
             values: by field; pydantic's `model_copy` takes names that no field has.

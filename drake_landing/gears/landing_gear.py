@@ -187,7 +187,7 @@ class LandingGear(Data):
 
     @property
     def sprung_mass(self) -> float:
-        """Of the sprung parts, kg."""
+        """Mass of the sprung parts, kg."""
         return sum(part.mass for part in self.sprung_parts.values())
 
     @property
@@ -197,7 +197,7 @@ class LandingGear(Data):
 
     @property
     def axle_names(self) -> tuple[str, ...]:
-        """What is put between the names of gear and wheel: nothing for one axle."""
+        """Parts of wheel names that tell the axles apart: nothing for one axle."""
         count = len(self.axles)
         numbered = tuple(f"_axle{i}" for i in range(1, count + 1))
         return {1: ("",), 2: ("_front", "_rear")}.get(count, numbered)
@@ -222,13 +222,13 @@ class LandingGear(Data):
 
     @property
     def unsprung_mass(self) -> float:
-        """Of the parts that move and the wheels, kg."""
+        """Mass of the parts that move and of the wheels, kg."""
         parts = sum(part.mass for part in self.moving_parts.values())
         return parts + len(self.wheel_names) * self.wheel.mass
 
     @property
     def mass(self) -> float:
-        """Of the whole gear, kg."""
+        """Mass of the whole gear, kg."""
         return self.sprung_mass + self.unsprung_mass
 
 

@@ -107,14 +107,14 @@ def last_bending(gear: LandingGear) -> str | None:
 
 
 def part_inertia(part: RigidPart, p_BO: Float64) -> SpatialInertia:
-    """About the origin of a body at p_BO (3,) in B whose axes are those of B."""
+    """Inertia of a part about a body's origin at p_BO (3,), along the axes of B."""
     return SpatialInertia.MakeFromCentralInertia(
         part.mass, np.array(part.cg) - p_BO, RotationalInertia(*part.inertia)
     )
 
 
 def elastic_kinds(leg: Leg | None) -> tuple[str, ...]:
-    """Those of `KINDS` that a leg has."""
+    """Kinds of elasticity (`KINDS`) that a leg has."""
     if leg is None:
         return ()
     if leg.reduced is not None:

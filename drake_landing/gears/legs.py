@@ -76,7 +76,7 @@ class Elastic(Data):
 
 
 class Torsion(Elastic):
-    """Of the torque links, with piston and cylinder, about the strut axis."""
+    """Compliance of torque links, piston and cylinder about the strut axis."""
 
     stiffness: Positive | None = Field(
         default=None, description="about the strut axis at every stroke, N m/rad, > 0"
@@ -252,7 +252,7 @@ class Leg(Data):
 
     @property
     def bends(self) -> bool:
-        """Not only twists."""
+        """Whether the leg bends, rather than twists alone."""
         whole = self.beam or self.matrix or self.reduced
         return bool(whole or self.fore_aft or self.lateral)
 

@@ -21,7 +21,7 @@ class _Mounted:
 
     @property
     def parameters(self) -> Any:
-        """Of its law."""
+        """Parameters of its law."""
         return self.system.parameters[self.which]
 
     def _own(self, root: Context) -> Context:

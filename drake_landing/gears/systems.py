@@ -43,7 +43,7 @@ from systems.tire.tire import Tire
 
 @dataclass(frozen=True, kw_only=True)
 class GearSystems:
-    """What `AddGearSystems` added.
+    """Systems that `AddGearSystems` added.
 
     Attributes:
         wheel_kinematics, gear_forces: one each.

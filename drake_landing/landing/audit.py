@@ -54,7 +54,7 @@ class Signals:
 
 
 def audit(landing: LandingDiagram, context: Context, scenario: Scenario) -> Audit:
-    """Of a run that began with `set_scenario_state` in this context.
+    """Audits a run that began with `set_scenario_state` in this context.
 
     Args:
         landing: with energy budget and loggers.

@@ -9,7 +9,7 @@ _IN_EVERY_LANDING = (modal_kinematics, joint_tree)
 
 
 def compilation_remark() -> str:
-    """What to add to an expected duration; empty where machine code is kept."""
+    """Remark on compiling beside a duration; empty where machine code is kept."""
     if all(compiled_before(str(module.__file__)) for module in _IN_EVERY_LANDING):
         return ""
     return "; the first run compiles, half a minute"

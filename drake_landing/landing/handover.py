@@ -52,7 +52,7 @@ class AttachmentLoads:
 
     @property
     def step(self) -> float:
-        """Of an even time grid, s.
+        """Step of the even time grid, s.
 
         Raises:
             ValueError: the grid is not even; see `resampled`.
@@ -72,7 +72,7 @@ class AttachmentLoads:
         return np.append(self.time, beyond), np.concatenate([self.load, last])
 
     def resampled(self, step: float, duration: float) -> "AttachmentLoads":
-        """On the grid 0, step, ... up to the duration."""
+        """Loads on the grid 0, step, ... up to the duration."""
         grid = time_grid(step, duration)
         flat = self.load.reshape(len(self.time), -1)
         load = resample(self.time, flat, grid).reshape(len(grid), -1, 6)

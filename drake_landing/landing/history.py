@@ -76,7 +76,7 @@ class LandingHistory:
         return self.motion.index.to_numpy()
 
     def attachment_loads(self) -> AttachmentLoads:
-        """Of all gears, nodes in ascending id; loads on one node are added.
+        """Loads of all gears, nodes in ascending id; loads on one node are added.
 
         They are increments over the loads at the start, which hold the aircraft in its
         flight or at rest; what the lift has lost since is among them.

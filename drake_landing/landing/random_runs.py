@@ -26,7 +26,7 @@ from systems.tire.tire import TireTunables
 
 @dataclass(frozen=True, kw_only=True)
 class Scatter:
-    """What is random in a landing, by Drake's distributions.
+    """Random quantities of a landing, by Drake's distributions.
 
     Distributions are those of `pydrake.common.schema`: Gaussian(mean, stddev),
     Uniform(min, max), UniformDiscrete(values), of one number each. Draws are

@@ -101,7 +101,7 @@ def build_landing(
 
 
 def fast_mode_notices(body: ModalBody, simulation: Simulation) -> tuple[str, ...]:
-    """What the user should know about modes that bound the integrator's step."""
+    """Remarks on modes that bound the integrator's step."""
     bound = simulation.slow_modes_above
     if bound is not None:
         count = int((body.frequency > bound).sum())

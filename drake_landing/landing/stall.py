@@ -22,7 +22,7 @@ class StallWatch:
         self._since = 0.0
 
     def step(self, root: Context) -> None:
-        """After each step.
+        """Counts a step of the landing.
 
         Raises:
             RuntimeError: `STEPS` steps took the landing less than `LEAST` further.

@@ -40,7 +40,7 @@ class Trial:
 
     @property
     def context(self) -> Context:
-        """As the run left it."""
+        """Context of the diagram at the end of the run."""
         return self.simulator.get_context()
 
     @property

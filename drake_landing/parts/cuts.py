@@ -110,7 +110,7 @@ class Cutter:
 
     @cached_property
     def links(self) -> Connections:
-        """What holds the grids together."""
+        """Connections that hold the grids together."""
         return connections(self.structure)
 
     @cached_property

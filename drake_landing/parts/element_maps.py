@@ -32,7 +32,7 @@ class DenseRows:
 
     @classmethod
     def from_sparse(cls, operator: sp.csr_matrix, elements: int) -> "DenseRows":
-        """Of (e k, n) rows, k an element."""
+        """Dense rows of a sparse operator (e k, n), k rows an element."""
         rows, n = shape_of(operator)
         k = rows // max(elements, 1)
         given = sp.coo_matrix(operator)

@@ -41,7 +41,7 @@ _TRY = (
 
 @dataclass(frozen=True, kw_only=True)
 class Field:
-    """What is drawn.
+    """A field of stress or displacement, ready to be drawn.
 
     Attributes:
         p: (g, 3) grids, deformed, B, m.

@@ -46,7 +46,7 @@ class Inventory:
 
     @property
     def components(self) -> list[str]:
-        """Those with most elements first."""
+        """Names of the components, those with most elements first."""
         return self.elements.component.value_counts().index.tolist()
 
     def of(self, ids: Int64) -> pd.DataFrame:

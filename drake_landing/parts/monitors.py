@@ -36,7 +36,7 @@ class Station:
 
     @property
     def quantities(self) -> list[str]:
-        """Of its axes: F1 ... M3."""
+        """Names of the components along its axes: F1 ... M3."""
         return [NAMES[a] for a in self.point.axes]
 
     def moved(self, displacement: Float64, acceleration: Float64) -> Float64:
@@ -100,7 +100,7 @@ def _told_apart(points: Sequence[MonitorPoint]) -> list[str]:
 
 
 def without_maps(station: Station) -> Station:
-    """What tells names and places of a station."""
+    """Names and places of a station, without its operators."""
     nothing = np.zeros(0, np.int64)
     point = replace(station.point, grids=nothing, outside=None, elastic=None)
     return Station(point=point, name=station.name, of_load=np.zeros((6, 0)))

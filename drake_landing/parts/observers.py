@@ -43,7 +43,7 @@ class CaseFound:
 
 @dataclass(frozen=True, kw_only=True)
 class PartsFound:
-    """What the parts see.
+    """Loads and stresses of the parts.
 
     Attributes:
         time: (t,) s.
@@ -150,13 +150,13 @@ class PartsWatch:
 
     @property
     def rows(self) -> pd.DataFrame:
-        """What is told of each element, in the order of the stresses; column `id`."""
+        """A row for each element, in the order of the stresses; column `id`."""
         rows = self._rows.reset_index()
         return rows.assign(axial_only=self.stresses.axial_only)
 
     @property
     def observers(self) -> list[Observer]:
-        """To be given to the transient."""
+        """Observers to be given to the transient."""
         return [self._stress, *self._moved().values()]
 
     @property
@@ -192,7 +192,7 @@ class PartsWatch:
         return {name: seen for name, seen in all_three.items() if seen is not None}
 
     def collect(self, loads: Sequence[AttachmentLoads]) -> PartsFound:
-        """After the transient, whose load cases these loads are."""
+        """Results after the transient, whose load cases these loads are."""
         cases = [self._case(i, load) for i, load in enumerate(loads)]
         worst = {
             str(self.components[k]): snapshot

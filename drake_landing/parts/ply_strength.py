@@ -104,7 +104,7 @@ class LaminateLimit:
 def laminate_limits(
     deck: Deck, allowables: Mapping[int, float]
 ) -> dict[int, LaminateLimit]:
-    """Of all PCOMP of a deck whose plies have more than isotropic allowables.
+    """Limits of all PCOMP of a deck whose plies have more than isotropic allowables.
 
     Args:
         deck: in SI.

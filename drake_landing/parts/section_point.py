@@ -87,7 +87,7 @@ class Stretched:
 
 @dataclass(frozen=True, kw_only=True)
 class Crossing:
-    """What crosses a cut.
+    """Elements and constraints that cross a cut.
 
     Attributes:
         point: (3,) EA-weighted center, B; the middle of what crosses where that has no

@@ -53,7 +53,7 @@ def sheets(structure: Structure, block: Shell) -> StressPart:
 def laminated(
     structure: Structure, block: Shell, limits: Mapping[int, LaminateLimit]
 ) -> list[StressPart]:
-    """Those with strengths of plies, and the others."""
+    """Laminates with strengths of plies, and all other shells."""
     judged = np.isin(block.pid, list(limits))
     parts = []
     if judged.any():

@@ -113,7 +113,7 @@ def static_slices(
     cuts: Mapping[str, BeamCuts],
     grids: Int64,
 ) -> Slices:
-    """What is looked at in the static cases.
+    """Stresses, section loads and accelerations of the static cases.
 
     Args:
         structure: the full model, free.

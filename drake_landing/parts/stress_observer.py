@@ -87,7 +87,7 @@ class StressWatch:
 
     @property
     def content(self) -> list[object]:
-        """What decides about the worst elements."""
+        """Settings that decide about the worst elements, for keys of the cache."""
         return [self._group, self._weight, self._about]
 
     def begin(self, time: Float64, cases: int, size: int) -> None:

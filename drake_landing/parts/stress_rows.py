@@ -51,7 +51,7 @@ class StressRows:
 
     @property
     def points(self) -> int:
-        """Where each element of a known kind has a stress."""
+        """Number of points at which an element of a known kind has a stress."""
         return self.per_element // (3 if self.kind == "sheet" else 1)
 
     def of_rows(
@@ -146,7 +146,7 @@ class Extremes:
 
     @classmethod
     def zero(cls, elements: int, cases: int = 1) -> "Extremes":
-        """Before the first instant."""
+        """Extremes before the first instant."""
         shape = (elements, cases)
         return cls(
             square=np.zeros(shape),
@@ -190,7 +190,7 @@ class StressMaps:
         return [np.asarray(operator @ extended) for operator in self.operators]
 
     def maps(self) -> tuple[Map, ...]:
-        """As kernels take them."""
+        """The operators as kernels take them."""
         return tuple(
             operator
             if rows.kind == "other"

@@ -95,7 +95,7 @@ def monitor_extremes(found: PartsFound) -> pd.DataFrame:
 
 
 def monitors_over_time(found: PartsFound) -> pd.DataFrame:
-    """Their loads over time."""
+    """Loads of the monitor points over time."""
     return monitor_histories(found.stations, found.time, found.landing.monitors)
 
 

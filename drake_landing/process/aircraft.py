@@ -111,8 +111,10 @@ def prepare_aircraft(case: Case, out: Path) -> Aircraft:
 def _steady_of_mass_case(
     airframe: Airframe, gears: tuple[LandingGear, ...], nodes: tuple[int, ...]
 ) -> Callable[[Structure], Float64] | None:
-    """Of a built-in model: its own lift carries another mass, so that of its wing's
-    nodes, in balance with the mass case, takes its place.
+    """Steady flight of a built-in model with another mass.
+
+    The lift that it brings carries its own mass; one of the wing's nodes that balances
+    the mass case takes its place.
     """
     if airframe.mass_case is None or not nodes:
         return None

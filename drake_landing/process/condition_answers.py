@@ -37,7 +37,7 @@ class Answers:
 
     @property
     def count(self) -> int:
-        """Of the cases."""
+        """Number of the cases."""
         return self.split.shape[1]
 
     def displacement(self, which: slice) -> Float64:
@@ -57,7 +57,7 @@ class Answers:
         return (self.held.pattern @ self.split).T.reshape(self.count, -1, 6)
 
     def error(self, structure: Structure) -> float:
-        """What forces and moments of loads and inertia leave, over the largest."""
+        """Rest of forces and moments of loads and inertia, over the largest."""
         rigid = structure.rigid_body
         operator = structure.operator(self.held.node_id, frame="basic")
         given = rigid.T @ (operator.T @ (self.held.pattern @ self.split))

@@ -32,7 +32,7 @@ Accelerations are about the aircraft's own axes, which are pitched against the g
 
 
 def write_readme(folder: Path) -> None:
-    """What each file is, and the signs."""
+    """Writes what each file is, and the signs."""
     width = max(map(len, _LINES))
     text = "Ground-load conditions as balanced static cases\n\n" + "".join(
         f"{name:<{width}}  {line}\n"

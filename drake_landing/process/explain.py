@@ -72,7 +72,7 @@ class Cost:
 
 
 def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> str:
-    """What matters first: airframe, gears, scenario, run, files.
+    """Text of a check: airframe, gears, scenario, run and files.
 
     Args:
         case: validated.
@@ -125,7 +125,7 @@ def explain(case: Case, out: Path | None = None, *, thorough: bool = False) -> s
 
 
 def _cost(structure: Structure) -> Cost:
-    """Of the matrix of the direct transient."""
+    """Cost of a factorization and a solution of the direct transient's matrix."""
     k, m = structure.stiffness, structure.mass
     shift = k.diagonal().sum() / m.diagonal().sum()
     times = [process_time()]
@@ -222,7 +222,7 @@ def _airframe(
 
 
 def _components(elements: Inventory) -> str:
-    """Of what the stresses will be told, and how to name it otherwise."""
+    """For which components stresses will be told, and how to name them otherwise."""
     counts = elements.elements.component.value_counts()
     said = [
         f"{name} ({count} elements)" for name, count in counts.head(_COMPONENTS).items()

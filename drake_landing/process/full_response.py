@@ -42,7 +42,7 @@ Int64 = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, kw_only=True)
 class FullResponse:
-    """What the full model answers.
+    """Response of the full model.
 
     Attributes:
         response: acceleration of the monitoring points, B.
@@ -167,7 +167,7 @@ def _static(
 def parts_looked_at(
     case: Case, aircraft: Aircraft, structure: Structure, loaded: Int64
 ) -> tuple[Cutter, Inventory, Places]:
-    """What a case means by its components and places, before anything is computed.
+    """Components and places of a case, checked before anything is computed.
 
     Args:
         case, aircraft: of the run.
@@ -207,7 +207,7 @@ def parts_watch(
     loaded: Int64,
     steady: Float64 | None,
 ) -> PartsWatch:
-    """What is looked at in transients of a case.
+    """Observers of the parts in the transients of a case.
 
     Args:
         case, aircraft, structure, loaded: see `parts_looked_at`.

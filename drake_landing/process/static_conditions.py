@@ -58,7 +58,7 @@ DECK = "conditions_sol101.bdf"
 
 @dataclass(frozen=True, kw_only=True)
 class ConditionsResult:
-    """What was found.
+    """Static cases of the rules, and the answers of the airframe to them.
 
     Attributes:
         ground: the aircraft.
@@ -268,7 +268,7 @@ def write_tables(result: ConditionsResult, out: Path) -> None:
 
 
 def summary(result: ConditionsResult, case: Case, out: Path) -> str:
-    """For the terminal."""
+    """Lines for the terminal."""
     aircraft = result.ground.aircraft
     lines = [
         f"{case.name}: {case.conditions.rules}, {len(result.balances)} static cases at "

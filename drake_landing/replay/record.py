@@ -262,7 +262,7 @@ def enlarged_bending(
     time: Float64,
     factor: float,
 ) -> list[RigidTransform]:
-    """What an elastic leg's deflection lacks to be enlarged, in the fitting's frame.
+    """Further deflection of an elastic leg that enlarges it, in the fitting's frame.
 
     Args:
         bending: angles over time, rad; None of a rigid leg.

@@ -133,7 +133,7 @@ class Arrow:
     def show(
         self, animation: MeshcatAnimation, frame: int, p_W: Float64, force: Float64
     ) -> None:
-        """At a frame, from p_W (3,) on; a force (3,) too small for a head is hidden."""
+        """Sets the arrow of a force (3,) at p_W (3,) in a frame; small ones hide."""
         size = float(np.linalg.norm(force))
         length = self._scale * size
         shown = length > self._head

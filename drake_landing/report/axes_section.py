@@ -40,7 +40,7 @@ def axes_section(result: "ProcessResult") -> Section:
 
 
 def _mass_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
-    """Of the airframe and of the aircraft with its gears."""
+    """Mass properties of the airframe and of the aircraft with its gears, as texts."""
     body, R_AB = result.airframe.body, result.airframe.R_AB
     whole = whole_mass(result.airframe, result.aircraft.gears)
     own, chord = R_AB.T @ body.p_BG, result.case.airframe.mac

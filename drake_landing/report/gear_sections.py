@@ -69,7 +69,7 @@ def _gear_peaks(result: "ProcessResult") -> Iterator[Block]:
 
 
 def attachment_nodes(result: "ProcessResult") -> Block:
-    """Where the nodes are that moments are about."""
+    """Section of the nodes that moments are about."""
     points, rows = result.airframe.structure.points, []
     for gear in result.aircraft.gears:
         for name, node in gear.attachments.items():

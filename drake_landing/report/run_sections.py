@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def case_section(result: "ProcessResult") -> Section:
-    """What was asked for: the case in short, gear data, the case file."""
+    """Section of the case: in short, gear data, and the file."""
     return Section(
         id="case",
         title="Case and gears",
@@ -64,7 +64,7 @@ def _case_pairs(result: "ProcessResult") -> list[tuple[str, str]]:
 
 
 def made_section(result: "ProcessResult") -> Section:
-    """With what program, files and host, see `results.provenance`."""
+    """Section of program, files and host, see `results.provenance`."""
     seconds = sum(result.seconds.values())
     made = [
         *result.provenance.lines(),

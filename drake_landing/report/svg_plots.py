@@ -129,7 +129,7 @@ def finish(axes: Axes, title: str, unit: str, *, x: str | None = "time, s") -> N
 
 
 def head(figure: Figure, text: str) -> None:
-    """What all panels of a figure are of, above them at the left."""
+    """Writes the common title of all panels above them at the left."""
     figure.suptitle(text, x=0.005, ha="left", fontsize="medium", fontweight="bold")
 
 

@@ -46,7 +46,7 @@ class FileMark:
 
 @dataclass(frozen=True, kw_only=True)
 class Provenance:
-    """Of one run.
+    """What one run was made from.
 
     Attributes:
         facts: what -> value, in the order of reading.
@@ -62,7 +62,7 @@ class Provenance:
 
     @classmethod
     def begin(cls, case: Case, aircraft: Aircraft, out: Path) -> "Provenance":
-        """At the start of a run, before a file can change."""
+        """Provenance at the start of a run, before a file can change."""
         gears = gears_text(aircraft.gears)
         return cls(
             facts={
@@ -78,7 +78,7 @@ class Provenance:
         )
 
     def write(self, file: h5py.File, seconds: float) -> None:
-        """As the group `provenance`; `seconds`: the duration of the run so far."""
+        """Writes the group `provenance`; `seconds`: the duration of the run so far."""
         group = file.create_group(_GROUP)
         facts = self.facts | {"duration": f"{seconds:.1f} s until results.h5"}
         for name, value in facts.items():
@@ -111,7 +111,7 @@ class Provenance:
 
 
 def read_provenance(folder: Path) -> Provenance:
-    """Of the results in a folder.
+    """Provenance of the results in a folder.
 
     Raises:
         InputError: it holds none.
@@ -180,7 +180,7 @@ def _program() -> dict[str, str]:
 
 
 def _commit() -> str:
-    """Of the source tree, or of the installation; with a mark where files differ."""
+    """Commit of the source tree or of the installation, marked where files differ."""
     try:
         git = ["git", "--no-optional-locks", "-C", str(_OWN)]  # writes nothing
         top = _output([*git, "rev-parse", "--show-toplevel"])
@@ -213,7 +213,7 @@ def _host() -> dict[str, str]:
 
 
 def _marks(case: Case, aircraft: Aircraft, out: Path) -> Iterator[FileMark]:
-    """Of all files, each once."""
+    """Marks of all input files, each once."""
     files: list[tuple[str, Path]] = []
     if case.places.file and Path(case.places.file).is_file():
         files.append(("case", Path(case.places.file)))

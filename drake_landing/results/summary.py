@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def story(result: "ProcessResult") -> str:
-    """What was done."""
+    """One sentence on what was done."""
     body, scenario = result.airframe.body, result.aircraft.scenario
     mass = body.mass + sum(gear.mass for gear in result.aircraft.gears)
     return (
@@ -73,7 +73,7 @@ def _acceleration(result: "ProcessResult") -> str:
 
 
 def _difference(result: "ProcessResult") -> str:
-    """Of the vertical accelerations, or of all where none is vertical."""
+    """Difference of the vertical accelerations, or of all where none is vertical."""
     comparison = result.comparison
     vertical = comparison[comparison["axis"] == result.vertical].dropna(
         subset="rms_error"

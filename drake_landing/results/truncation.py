@@ -20,7 +20,7 @@ _ORDER = 4  # of the Butterworth filter, run forward and back
 
 @dataclass(frozen=True, kw_only=True)
 class Truncation:
-    """What the modes that are left out cost.
+    """Error of the modes that are left out.
 
     Attributes:
         gears: gear that touches the ground -> expected error of its load.

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class WholeMass:
-    """Of airframe and gears.
+    """Mass properties of airframe and gears together.
 
     Attributes:
         mass: kg.

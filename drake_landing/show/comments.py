@@ -55,13 +55,13 @@ KINDS = {
 
 
 def kind_of(card: str) -> str:
-    """What elements of a card are called that nothing in the deck names."""
+    """Name of a component whose elements nothing in the deck names, by their card."""
     return KINDS.get(card, f"{card} elements")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Names:
-    """What the comments of a deck's files say.
+    """Names of properties and elements in the comments of a deck's files.
 
     Attributes:
         banners: file -> (lines, titles) in order.

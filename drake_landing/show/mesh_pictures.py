@@ -33,7 +33,7 @@ DEFORMATION = 0.08  # of the size of the model: largest displacement in a pictur
 
 
 def colour(index: int) -> str:
-    """Of the component at a place in the order."""
+    """Color of the component at a place in the order."""
     return _COLOURS[index % len(_COLOURS)]
 
 

@@ -86,7 +86,7 @@ def shown_modes(structure: Structure, mesh: DrawnMesh, count: int) -> ShownModes
 
 
 def motions(structure: Structure, mesh: DrawnMesh, shape_f: Float64) -> tuple[str, ...]:
-    """What moves in modes (f, m), in words: symmetry, components and their energy."""
+    """Names of modes (f, m) by symmetry, components and their energy."""
     ids = structure.points.grid_id
     shape = structure.operator(ids, (1, 2, 3), frame="basic") @ shape_f
     symmetry = _symmetry(mesh.p, shape.reshape(len(ids), 3, -1))

@@ -48,7 +48,7 @@ def write_viewer(
 
 
 def viewer_data(title: str, mesh: DrawnMesh, modes: ShownModes | None) -> dict:
-    """What the page's program gets, ready for JSON."""
+    """Data for the page's program, ready for JSON."""
     center = 0.5 * (mesh.p.min(axis=0) + mesh.p.max(axis=0))
     return {
         "title": title,

@@ -26,7 +26,7 @@ def response_key(
     watch: PartsWatch,
     envelopes: Sequence[Envelope],
 ) -> str:
-    """Of everything that a transient depends on, the program's own text included."""
+    """Hash of everything that a transient depends on, the program's text included."""
     b = structure.damping
     return content_key(
         source_key("fem", "drake_landing.parts", "drake_landing.transient"),

@@ -36,7 +36,7 @@ _SMALL = 0.02
 
 @dataclass(frozen=True, kw_only=True)
 class Practices:
-    """What the three practices found.
+    """Results of the three practices.
 
     Attributes:
         table: rows with columns `COLUMNS`; `value` is the extreme of largest magnitude
@@ -52,7 +52,7 @@ class Practices:
 
 
 def rigid(body: ModalBody) -> ModalBody:
-    """The same airframe without elastic modes."""
+    """Copy of the airframe without elastic modes."""
     return replace(
         body,
         frequency=body.frequency[:0],

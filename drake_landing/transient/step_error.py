@@ -97,13 +97,13 @@ class StepError:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Where it is worth a warning."""
+        """Warnings, where the error is worth one."""
         why = f": {self.cause}" if self.cause else ""
         return (f"transient.step: a {self}{why}",) if self._warns else ()
 
     @property
     def remedies(self) -> str:
-        """What a user can change, in words."""
+        """Changes that a user can make, in words."""
         step = self.enough or self.about
         smaller = f"'step: {step:.1g}'" if step else "a smaller step"
         accept = f"'accept: {np.ceil(100 * self.error):.0f}' (%) beside the step"
@@ -166,7 +166,7 @@ def expected_step_error(
     model: LoadModel,
     pulses: Sequence[GearPulses],
 ) -> StepError:
-    """Of the step of a case.
+    """Error to expect of the transient's step in a case.
 
     Args:
         case: its step and scheme.

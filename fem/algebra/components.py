@@ -20,7 +20,7 @@ from fem.arrays import Int64
 
 @dataclass(frozen=True, kw_only=True)
 class Component:
-    """What becomes of a part.
+    """Reduced matrices of a part.
 
     Attributes:
         interior: (o,) rows of the f-set.

@@ -29,7 +29,7 @@ class Extension:
 
     @classmethod
     def from_expansion(cls, expand: sp.csr_matrix) -> "Extension":
-        """Of u_g = T u_f (g, f)."""
+        """The extension that u_g = T u_f (g, f) stands for."""
         T = sp.csr_matrix(expand, copy=True)
         T.eliminate_zeros()
         _, free = shape_of(T)
@@ -82,7 +82,7 @@ class CondensedProduct:
     def from_matrix(
         cls, matrix: sp.csr_matrix, expand: sp.csr_matrix
     ) -> "CondensedProduct":
-        """Of A (g, g) and T (g, f)."""
+        """Products with T' A T, from A (g, g) and T (g, f)."""
         extension = Extension.from_expansion(expand)
         half = extension.rows(matrix)  # (g, f + d)
         whole = extension.rows(sp.csr_matrix(half.T)).T

@@ -23,7 +23,7 @@ def orthonormal_block(
 def orthonormal_rest(
     block: Float64, basis: Float64, mass: sp.csr_matrix, smallest: float = 1e-8
 ) -> Float64:
-    """What a block has beyond an M-orthonormal basis, as M-orthonormal vectors.
+    """Part of a block beyond an M-orthonormal basis, as M-orthonormal vectors.
 
     Args:
         block: (n, k) vectors of any length.

@@ -14,7 +14,7 @@ from fem.arrays import Float64
 
 @dataclass(frozen=True, kw_only=True)
 class Participation:
-    """Of m modes in r motions.
+    """Participation of m modes in r rigid motions.
 
     Attributes:
         factor: (m, r) γ.

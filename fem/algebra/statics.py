@@ -174,7 +174,7 @@ _NO_INERTIA, _UNLOADED = 1e-12, 1e-9
 
 
 def free_motions(stiffness: sp.csr_matrix, rigid_body: Float64) -> Float64:
-    """Those combinations of rigid-body motions (f, r) that cost no energy, (f, k)."""
+    """Combinations of rigid-body motions (f, r) that cost no energy, (f, k)."""
     if rigid_body.shape[1] == 0:
         return rigid_body
     size = np.linalg.norm(rigid_body, axis=0)

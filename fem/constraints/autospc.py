@@ -24,7 +24,7 @@ _ROUNDING = 1e-13
 
 @dataclass(frozen=True, kw_only=True)
 class Singularities:
-    """What was found.
+    """Freedoms without stiffness.
 
     Attributes:
         dof: (n,) rows of the g-set, ascending.

@@ -84,7 +84,7 @@ class Elimination:
         return sp.csr_matrix(upper + sp.triu(upper, 1).T)
 
     def with_enforced(self, dof: Int64, value: Float64) -> "Elimination":
-        """The same with other displacements of rows of the s-set (SPCD).
+        """Copy with other displacements of rows of the s-set (SPCD).
 
         Raises:
             InputError: rows that are not in the s-set.
@@ -99,7 +99,7 @@ class Elimination:
         return replace(self, enforced=enforced)
 
     def with_fixed(self, dof: Int64) -> "Elimination":
-        """The same with further rows fixed at zero (AUTOSPC)."""
+        """Copy with further rows fixed at zero (AUTOSPC)."""
         s = np.union1d(self.s, dof)
         enforced = np.zeros(len(s))
         enforced[np.searchsorted(s, self.s)] = self.enforced

@@ -209,7 +209,7 @@ _COMBINED: dict[str, tuple[str, str, tuple[str, ...]]] = {
 
 
 class Selected(NamedTuple):
-    """What is wrong with the selected sets, and what is remarkable."""
+    """Problems of the selected sets, and remarks on them."""
 
     problems: list[str]
     notices: list[str]

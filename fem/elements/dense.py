@@ -65,15 +65,15 @@ class DenseBlock:
         return None
 
     def forces(self) -> Recovery | None:
-        """None: no element forces."""
+        """No element forces."""
         return None
 
     def stresses(self) -> Recovery | None:
-        """None: no element stresses."""
+        """No element stresses."""
         return None
 
     def strains(self) -> Recovery | None:
-        """None: no element strains."""
+        """No element strains."""
         return None
 
     def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
@@ -85,7 +85,7 @@ class DenseBlock:
         return self.stresses() if kind == "stress" else self.strains()
 
     def of_nodal_forces(self, kind: Kind, detail: Detail = CENTER) -> Float64 | None:
-        """None: loads act at the grids only."""
+        """No loads between the grids."""
         return None
 
 

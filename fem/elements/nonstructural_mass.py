@@ -50,7 +50,7 @@ class MassInSection:
     section: Any
 
     def with_nonstructural_mass(self, per_extent: Float64) -> Self:
-        """The same elements with additional mass per length (e,)."""
+        """Copy with additional mass per length (e,)."""
         section = replace(self.section, nsm=self.section.nsm + per_extent)
         return cast(Self, replace(cast(Any, self), section=section))
 

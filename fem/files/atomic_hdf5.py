@@ -62,7 +62,7 @@ class _Disk(io.RawIOBase):
         return self._stream.tell()
 
     def readinto(self, buffer: memoryview) -> int:
-        """All of the buffer, zeros beyond the end."""
+        """Fills the whole buffer, with zeros beyond the end of the file."""
         view = memoryview(buffer).cast("B")
         kept = self._after.get(self._stream.tell(), b"")
         if len(kept) >= len(view):
@@ -78,7 +78,7 @@ class _Disk(io.RawIOBase):
         return len(view)
 
     def write(self, data: memoryview) -> int:
-        """All of the data."""
+        """Writes all of the data."""
         view, start = memoryview(data).cast("B"), self._stream.tell()
         size = len(view)
         try:

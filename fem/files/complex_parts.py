@@ -23,7 +23,7 @@ def form_of(case: Subcase, request: str, values: npt.NDArray | np.dtype) -> int:
 
 
 def as_asked(values: npt.NDArray, form: int) -> npt.NDArray:
-    """The same; POLAR: magnitudes in place of real parts, degrees of imaginary ones."""
+    """Values in the form asked for: in POLAR magnitudes and degrees are the parts."""
     if form != POLAR:
         return values
     return np.abs(values) + 1j * (np.degrees(np.angle(values)) % 360.0)

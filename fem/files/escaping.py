@@ -35,7 +35,7 @@ def group_name(text: str) -> str:
 
 
 def comment(text: str) -> str:
-    """What may follow the `$` of a deck: one line, nothing that ends it."""
+    """Text that may follow the `$` of a deck: one line, nothing that ends it."""
     return "".join(c if c.isprintable() else " " for c in text)
 
 
@@ -54,5 +54,5 @@ def cell(text: str) -> str:
 
 
 def attribute(text: str) -> str:
-    """Between the quotes of an attribute of HTML or SVG."""
+    """Text between the quotes of an attribute of HTML or SVG."""
     return html.escape(text, quote=True)

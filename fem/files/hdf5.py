@@ -91,7 +91,7 @@ class ResultFile:
         return sum(sizes)
 
     def require_room(self) -> None:
-        """See that the disk has room for what the datasets will hold.
+        """Refuses where the disk has no room for what the datasets will hold.
 
         Raises:
             OSError: it has not; with both figures.

@@ -124,7 +124,7 @@ _ARRANGEMENTS: dict[tuple[str, str], Callable[[Op2, Elements], Layout]] = {
 
 
 def complex_layout_of(card: str, kind: str, elements: Elements) -> Layout | None:
-    """As `layout_of` for complex results, whose columns have both parts."""
+    """Layout as `layout_of` for complex results, whose columns have both parts."""
     element = CARDS[card].element if card in CARDS else None
     if element is None or element.op2 is None:
         return None

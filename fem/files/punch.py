@@ -164,7 +164,7 @@ class _Cards:
         self._stream.write(f"{text[:72]:<72}{self._count:8d}\n")
 
     def head(self, case: Subcase, heading: str, state: str, form: int) -> None:
-        """What the following cards are."""
+        """Writes the head of the following cards."""
         for name in ("title", "subtitle", "label"):
             self.comment(f"${name.upper():<8}= {getattr(case, name)}")
         self.comment(f"${heading}")

@@ -115,7 +115,7 @@ def dynamic_excitation(
 
 
 def table_notices(deck: "Deck", subcase: Subcase, end: float) -> list[str]:
-    """What tables give where a run up to `end` (s) goes beyond them.
+    """Notices of tables that end before the run does, at `end` (s).
 
     As in Nastran, the line through the last two points goes on, before the table and
     after it; with a delay, the table is asked for times before it.

@@ -46,7 +46,7 @@ class EnforcedMotion:
 def dynamic_motions(
     deck: "Deck", points: Points, subcase: Subcase
 ) -> list[EnforcedMotion]:
-    """What TLOAD1 and TLOAD2 of TYPE DISP, VELO or ACCE move in a subcase.
+    """Motions by TLOAD1 and TLOAD2 of TYPE DISP, VELO or ACCE in a subcase.
 
     Raises:
         InputError: no SPCD of EXCITEID, undefined sets or tables.

@@ -93,7 +93,7 @@ def _about_axis(points: Points, row: pd.Series, name: str) -> Float64:
 
 
 def spinning_masses(deck: "Deck", points: Points, rows: pd.DataFrame) -> Float64:
-    """What RFORCE's centrifugal field does to CONM2 beyond M times the field at grids.
+    """Load of RFORCE's centrifugal field on CONM2 beyond M times the field at grids.
 
     -w x (w x m d) of a mass m at d from its grid, and the moment -w x (I w) of its
     inertia I about the grid; a vector of the g-set.

@@ -58,7 +58,7 @@ class _Term:
 
 @dataclass(frozen=True)
 class NonlinearLoad:
-    """All of them, of load cases that are solved together; see `StateLoad`."""
+    """NOLIN loads of load cases that are solved together; see `StateLoad`."""
 
     terms: Sequence[_Term]
 

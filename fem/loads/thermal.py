@@ -87,7 +87,7 @@ def summed(parts: Sequence[tuple[float, FreeMotions | None]]) -> FreeMotions | N
 def free_motions(
     deck: "Deck", points: Points, blocks: Sequence["ElementBlock"], subcase: "Subcase"
 ) -> FreeMotions | None:
-    """What the temperatures and the deformations of a subcase do to its elements.
+    """Free strains of elements under temperatures and deformations of a subcase.
 
     Raises:
         InputError: a set that is not there, grids without temperature, elements with

@@ -47,7 +47,7 @@ class Table:
         return np.where(on_point, mean, self._between(t, first))
 
     def continued(self, first: float, last: float) -> list[tuple[float, float]]:
-        """Where a run from first to last (s) leaves the table and its values change.
+        """Ends of a run from first to last (s) beyond the table where values change.
 
         Returns:
             Time (s) and value at each end of the run that is beyond the table.

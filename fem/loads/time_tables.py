@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def time_function(deck: "Deck", name: str, row: pd.Series) -> TimeFunction:
-    """Of a row of TLOAD1 or TLOAD2.
+    """Time function of a row of TLOAD1 or TLOAD2.
 
     Raises:
         InputError: as for `table_function`; T1, T2 or B of TLOAD2 out of range.

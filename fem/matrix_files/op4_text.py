@@ -205,7 +205,7 @@ class _Columns:
         self.numbers += len(numbers)
 
     def finish(self) -> None:
-        """What a column announced has come."""
+        """Checks that all terms which a column announced have come."""
         if not self.sparse:
             self.compare(self.count, self.numbers, 0)
             return

@@ -47,7 +47,7 @@ def differential_work(
     u_g: Float64,
     shapes: Float64,
 ) -> tuple[Int64, Float64]:
-    """What the internal forces of a state do on shapes, element by element.
+    """Work of the internal forces of a state on shapes, element by element.
 
     Args:
         points, blocks, u_g: as for `differential_stiffness`.

@@ -48,7 +48,7 @@ class DynamicInput:
     structural: sp.csr_matrix
 
     def on(self, expand: sp.csr_matrix) -> DynamicInput:
-        """The same on freedoms that the g-set follows by u_g = expand u."""
+        """The matrices on freedoms that the g-set follows by u_g = expand u."""
 
         def reduced(matrix: sp.csr_matrix) -> sp.csr_matrix:
             return sp.csr_matrix(expand.T @ (matrix @ expand))
@@ -64,7 +64,7 @@ class DynamicInput:
 def read_dynamic_input(
     deck: Deck, points: Points, subcase: Subcase
 ) -> DynamicInput | None:
-    """What K2PP, M2PP, B2PP and TFL of a subcase select; None: nothing.
+    """Matrices that K2PP, M2PP, B2PP and TFL of a subcase select; None: none.
 
     Raises:
         InputError: unknown names and sets, freedoms that do not exist, matrices that

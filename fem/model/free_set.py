@@ -41,7 +41,7 @@ class ConstraintChoice:
 
     @classmethod
     def from_subcase(cls, subcase: Subcase) -> ConstraintChoice:
-        """Of a subcase."""
+        """The choice of a subcase."""
         return cls(*(getattr(subcase, item.name) for item in fields(cls)))
 
 
@@ -73,7 +73,7 @@ class FreeSet:
         return FreeSet(model, choice, self if model.base is self.model.base else None)
 
     def holding(self, rows: Int64, motions: Float64) -> FreeSet:
-        """The same with some freedoms at zero, which stops motions of no consequence.
+        """Copy with some freedoms at zero, which stops motions of no consequence.
 
         Args:
             rows: (r,) positions in the f-set.
@@ -155,7 +155,7 @@ class FreeSet:
 
     @cached_property
     def notices(self) -> list[str]:
-        """What the user should know about this model, in words."""
+        """Remarks on this model that the user should read."""
         deck, autospc = self.model.deck, self.support.autospc
         lines = [
             *deck.notices,

@@ -53,7 +53,7 @@ def combination_of(deck: Deck, massset: int) -> tuple[float, list[tuple[float, i
 
 
 def combination_story(deck: Deck, massset: int) -> str:
-    """What the mass of a set is made of, in words."""
+    """Words for what the mass of a set is made of."""
     s0, terms = combination_of(deck, massset)
     names = [
         (f"{s:g} x " if s != 1.0 else "") + (f"MASSID {n}" if n else "the base")

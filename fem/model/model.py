@@ -46,7 +46,7 @@ class ModelChoice:
 
     @classmethod
     def from_subcase(cls, subcase: Subcase) -> ModelChoice:
-        """Of a subcase."""
+        """The choice of a subcase."""
         return cls(*(getattr(subcase, item.name) for item in fields(cls)))
 
 

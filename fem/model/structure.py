@@ -78,7 +78,7 @@ class Structure:
         return cls(deck, None if subcase is None else deck.subcase(subcase))
 
     def with_subcase(self, subcase: Subcase) -> Structure:
-        """The same model under another subcase; what does not change is shared."""
+        """Copy under another subcase; what does not change is shared."""
         return Structure(self.deck, subcase, free=self._free.under(subcase))
 
     def without_massless_motions(self) -> tuple[Structure, list[str]]:
@@ -109,7 +109,7 @@ class Structure:
 
     @property
     def model(self) -> Model:
-        """What subcases of the same mass and matrices share."""
+        """The part that subcases of the same mass and matrices share."""
         return self._free.model
 
     @property
@@ -134,7 +134,7 @@ class Structure:
 
     @cached_property
     def dynamic_input(self) -> DynamicInput | None:
-        """What K2PP, M2PP, B2PP and TFL of the subcase add; None: nothing."""
+        """Matrices of K2PP, M2PP, B2PP and TFL of the subcase; None: none."""
         return read_dynamic_input(self.deck, self.points, self.subcase)
 
     @property
@@ -261,7 +261,7 @@ class Structure:
         return u_g + (u_0 if u_g.ndim == 1 else u_0[:, None])
 
     def shape(self, u_f: Float64) -> Float64:
-        """As `displacement`, without enforced displacements: modes, velocities."""
+        """Displacements as `displacement`, without enforced ones: modes, velocities."""
         return self.elimination.T @ u_f
 
     def load(self, p_g: Float64 | sp.spmatrix | sp.sparray) -> sp.csr_matrix | Float64:
@@ -296,7 +296,7 @@ class Structure:
 
     @property
     def notices(self) -> list[str]:
-        """What the user should know about this model, in words."""
+        """Remarks on this model that the user should read."""
         return self._free.notices
 
     @property
@@ -375,5 +375,5 @@ class Structure:
 
 
 def system_of(subcase: Subcase) -> tuple[ModelChoice, ConstraintChoice]:
-    """What the matrices of a subcase depend on; equal for those that share them."""
+    """Choices that decide the matrices of a subcase; subcases with equal ones share."""
     return ModelChoice.from_subcase(subcase), ConstraintChoice.from_subcase(subcase)

@@ -125,7 +125,7 @@ class ElasticityTable:
         return tuple(sorted(self._rows))
 
     def problem(self, mid: int, cards: Iterable[str], user: str) -> str | None:
-        """What is wrong with this reference, None where nothing is."""
+        """Problem of this reference, None where there is none."""
         cards = tuple(cards)
         if mid not in self._rows:
             hint = nearest(str(mid), [str(i) for i in self.ids])

@@ -53,7 +53,7 @@ class Strength:
 
 @dataclass(frozen=True, kw_only=True)
 class Failure:
-    """What one laminate is measured against.
+    """Strengths and criterion of one laminate.
 
     Attributes:
         theory: one of THEORIES, '' for none.
@@ -120,7 +120,7 @@ def tsai_wu_parts(
     s: Values,
     f12: Values,
 ) -> tuple[Float64, Float64]:
-    """What of Tsai-Wu's index is linear in the stress, and what is quadratic."""
+    """Linear and quadratic part of Tsai-Wu's index in the stress."""
     s1, s2, t12 = np.moveaxis(stress, -1, 0)
     linear = s1 * (1.0 / xt - 1.0 / xc) + s2 * (1.0 / yt - 1.0 / yc)
     square = s1**2 / (xt * xc) + s2**2 / (yt * yc) + (t12 / s) ** 2

@@ -19,7 +19,7 @@ from fem.properties.shell_section import strain_rotation
 
 @dataclass(frozen=True, kw_only=True)
 class ShellExpansion:
-    """Of one property in material axes, at its nominal thickness.
+    """Thermal expansion of one property in material axes, at its nominal thickness.
 
     Attributes:
         strain: (2, 3) of the reference surface, per degree and per gradient.

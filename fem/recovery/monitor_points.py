@@ -57,7 +57,7 @@ class MonitorPoint:
 
 @dataclass(frozen=True)
 class MonitorPoints:
-    """Those of a deck, and why others cannot be summed."""
+    """Monitor points of a deck, and why some cannot be summed."""
 
     points: tuple[MonitorPoint, ...] = ()
     notices: tuple[str, ...] = ()

@@ -117,7 +117,7 @@ def with_dynamic_input(
 def in_modes(
     reduced: AnalysisModel, modes: Modes, ratio: Float64 | float = 0.0
 ) -> AnalysisModel:
-    """The same in coordinates of mass-normalised modes, damping ratios added to B."""
+    """The model in mass-normalised modes, with damping ratios added to B."""
     own = 2.0 * np.broadcast_to(ratio, modes.count) * np.sqrt(np.abs(modes.eigenvalue))
     damping = modal_damping(modes, reduced.damping) + np.diag(own)
     return AnalysisModel(

@@ -25,7 +25,7 @@ def components_of(structure: Structure) -> list[Component]:
 
 
 def component_notices(structure: Structure) -> list[str]:
-    """What the reduction of superelements means for the results."""
+    """Notices of what the reduction of superelements means for the results."""
     lines = []
     for part in structure.deck.components:
         if part.free:

@@ -51,7 +51,7 @@ class BaseMotion:
         *,
         solver: SolverName | None = None,
     ) -> "BaseMotion":
-        """The same with the static response of the free freedoms in Ψ."""
+        """Copy with the static response of the free freedoms in Ψ."""
         shape = carried_shape(self.shape, model, reduced, modes, solver=solver)
         return BaseMotion(shape=shape, factor=self.factor)
 
@@ -89,7 +89,7 @@ def carried_shape(
 
 
 def unseen_motion(model: Structure, motion: sp.csr_matrix) -> str:
-    """That K2PP, TFL and their like do not see motions (g, m) of constrained freedoms.
+    """Notice that K2PP, TFL and the like do not see motions (g, m) of the s-set.
 
     Nastran takes the rows and columns of what SPC holds out of them, moved or not
     (workshop 21 of its course NAS102: the nonlinear loads that it prints).

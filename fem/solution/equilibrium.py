@@ -24,7 +24,7 @@ def write_resultants(
     results: ResultFile,
     name: str,
 ) -> None:
-    """What an F06 says first: sums of loads and of forces of constraint, epsilon.
+    """Writes sums of loads and of forces of constraint, and epsilon, as an F06 begins.
 
     Of each component of the forces what it adds to the resultant, (6, 6), about the
     reference point of the weight table; epsilon is the work of the residual over that

@@ -81,7 +81,7 @@ class FrequencyDependence:
     def from_deck(
         cls, deck: "Deck", points: Points, blocks: Sequence[ElementBlock]
     ) -> "FrequencyDependence | None":
-        """Of a model; None where nothing in it depends on frequency."""
+        """The dependence of a model; None where nothing in it depends on frequency."""
         used = [name for name in _KINDS if not table(deck, name).empty]
         named = {_KINDS[name].reader for name in used}
         cards = frozenset(b.card for r in named for b in readers()[r](deck, points))
@@ -107,7 +107,7 @@ class FrequencyDependence:
         return [block for r in named for block in readers()[r](deck, self.points)]
 
     def at(self, hertz: float) -> Matrices:
-        """What a frequency adds to the matrices of the g-set; the mass stays."""
+        """Matrices of the g-set that a frequency adds; the mass stays."""
         new, old = self._assembled(self.blocks(hertz)), self._assembled(self.nominal)
         return Matrices(
             stiffness=sp.csr_matrix(new.stiffness - old.stiffness),

@@ -103,7 +103,7 @@ class _Moved:
         self._observer.observe(_MovedChunk(chunk, moved, self._parts))
 
     def memory_bytes(self, times: int, cases: int, size: int) -> int:
-        """That of the observer."""
+        """Memory of the observer."""
         return self._observer.memory_bytes(times, cases, size + len(self._base.case))
 
 
@@ -178,7 +178,7 @@ def with_base(
 def say_of_motion(
     model: Structure, motions: Sequence[Sequence[EnforcedMotion]], options: Options
 ) -> None:
-    """That PARAM,ENFMOTN,REL is not followed, and what direct input does not see."""
+    """Says that PARAM,ENFMOTN,REL is not followed, and what direct input leaves out."""
     patterns = [motion.pattern for own in motions for motion in own]
     if not patterns:
         return

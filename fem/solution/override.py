@@ -44,7 +44,7 @@ def asked_by(case: Subcase, number: int) -> int:
 
 
 def ways_on(subcases: Sequence[Subcase]) -> str:
-    """What `--sol` can do with the subcases of a solution that is not supported."""
+    """Ways to use subcases of a solution that is not supported (`--sol`)."""
     offers = []
     for number in SUPPORTED:
         said = [c for c in subcases if ANALYSES.get(c.analysis.upper()) == number]

@@ -23,7 +23,7 @@ _CORNERS = frozenset({"BILIN", "CORNER", "CUBIC", "SGAGE"})
 
 
 def detail_of(deck: Deck, subcase: Subcase) -> Detail:
-    """Where results of shells are wanted.
+    """Points at which results of shells are wanted.
 
     As in Nastran, one of FORCE, STRESS and STRAIN in the first subcase decides for all
     whether quadrilaterals have results at their corners.
@@ -39,7 +39,7 @@ def detail_of(deck: Deck, subcase: Subcase) -> Detail:
 
 
 def wanted(subcase: Subcase, quantity: str) -> Selection:
-    """What a subcase asks for of a quantity."""
+    """Selection of a quantity that a subcase asks for."""
     return subcase.outputs.get(quantity, "NONE")
 
 

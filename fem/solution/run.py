@@ -109,7 +109,7 @@ def declared_solution(path: Path) -> int:
 
 
 def solution_problems(path: Path) -> list[str]:
-    """That no solution here is what a deck asks for, from its first sections alone.
+    """Problem that no solution here is what a deck asks for, from its first sections.
 
     For decks with other problems, which do not matter then. Empty: there is one, or
     the deck cannot be read that far.

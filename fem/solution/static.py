@@ -30,7 +30,7 @@ from fem.solution.requests import ids_of
 
 @dataclass(frozen=True)
 class StaticSolution:
-    """What was found for a subcase, (g,) each, and loads between grids.
+    """Answer of a subcase, (g,) each, and loads between grids.
 
     Attributes:
         u_g: displacements.

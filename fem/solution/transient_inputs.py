@@ -42,7 +42,7 @@ def announced_steps(
 
 @dataclass(frozen=True, kw_only=True)
 class TransientInputs:
-    """What acts in a transient.
+    """Loads, motions and initial state of a transient.
 
     Attributes:
         load: of all cases on the g-set.

@@ -123,7 +123,7 @@ def ShockAbsorber_(T):
 
         @property
         def parameters(self) -> tuple[ShockAbsorberParameters, ...]:
-            """Of each shock absorber."""
+            """Parameters of each shock absorber."""
             return self._parameters
 
         def set_tunables(
@@ -186,7 +186,7 @@ def ShockAbsorber_(T):
             return strokes, self._all_tunables(context).tolist(), states
 
         def _states(self, context):
-            """Of each, None where it has none."""
+            """States of each shock absorber, None where it has none."""
             if not self._has_state:
                 return [None] * self._n
             state = context.get_continuous_state_vector().CopyToVector()

@@ -156,7 +156,7 @@ def _wheel_forces(
 
 
 def _is_curve_law(law: Any) -> bool:
-    """Of the type of a compiled law's argument."""
+    """Whether the type of a compiled law's argument is a curve law."""
     return isinstance(law, types.BaseNamedTuple) and law.instance_class is CurveLaw
 
 

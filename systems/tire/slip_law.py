@@ -60,7 +60,7 @@ class SlipLaw(Protocol):
 def relaxation_share(
     law: SlipLaw, k_t: Scalar, k_l: Scalar, deflection: Scalar
 ) -> Scalar:
-    """Of a law; compiled laws may call it."""
+    """`SlipLaw.relaxation_share` as a function that compiled laws may call."""
     return law.relaxation_share(k_t, k_l, deflection)
 
 
@@ -74,5 +74,5 @@ def wheel_forces(
     factor: Scalar,
     tilt: Scalar,
 ) -> tuple[Scalar, Scalar, Scalar]:
-    """Of a law; compiled laws may call it."""
+    """`SlipLaw.wheel_forces` as a function that compiled laws may call."""
     return law.wheel_forces(k_t, k_l, travel, deflection, load, factor, tilt)

@@ -131,7 +131,7 @@ def Tire_(T):
 
         @property
         def parameters(self) -> tuple[TireParameters, ...]:
-            """Of each tire."""
+            """Parameters of each tire."""
             return self._parameters
 
         def rolling_radius(self, deflection, which: int = 0):

@@ -130,7 +130,7 @@ def _folder(file: str, others: tuple[Path, ...] = ()) -> Path:
 
 @cache
 def _edition(file: str, others: tuple[Path, ...]) -> str:
-    """Of all that machine code depends on."""
+    """Hash of all that machine code depends on."""
     machine = f"{sys.version} {numba.__version__} {get_host_cpu_name()}"
     text = b"".join(path.read_bytes() for path in (Path(file), *others))
     return hashlib.sha256(machine.encode() + text).hexdigest()[:16]

@@ -82,7 +82,7 @@ def rotation_matrix(w: float, x: float, y: float, z: float) -> Float64:
 
 @compiled
 def _coefficients(t2: float) -> tuple[float, float, float, float, float]:
-    """Of a squared angle: sin t/t, a = (1 - cos t)/t², b = (t - sin t)/t³, a', b'.
+    """Functions of t²: sin t/t, a = (1 - cos t)/t², b = (t - sin t)/t³, a', b'.
 
     The slopes are those over t². The series are exact to machine precision where the
     closed forms lose digits.
@@ -138,7 +138,7 @@ def rotation_kinematics(
 
 @compiled
 def rotation_vector(R: Float64) -> Vector:
-    """Of a rotation matrix, by way of the quaternion's largest component."""
+    """Rotation vector of a rotation matrix, by the quaternion's largest component."""
     trace = R[0, 0] + R[1, 1] + R[2, 2]
     # The matrix 4 q qᵀ, of which the row of the largest diagonal is exact.
     largest = 0

@@ -58,13 +58,13 @@ def massless_aluminium(model: ModelBuilder) -> int:
 
 
 def shear_modulus() -> float:
-    """Of the beam models' aluminium, Pa."""
+    """Shear modulus of the beam models' aluminium, Pa."""
     m = facts("materials")["al2024"]
     return m["e"] / (2 * (1 + m["nu"]))
 
 
 def youngs_modulus() -> float:
-    """Of the beam models' aluminium, Pa."""
+    """Young's modulus of the beam models' aluminium, Pa."""
     return facts("materials")["al2024"]["e"]
 
 

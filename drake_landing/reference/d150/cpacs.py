@@ -55,7 +55,7 @@ class CpacsModel:
     defaults: tuple[str, ...]
 
     def story(self, path: Path) -> str:
-        """What was written, from where, and what the file lacks."""
+        """Lines that say what was written, from where, and what the file lacks."""
         mass = self.model.masses["mass"].sum()
         return "\n".join(
             [

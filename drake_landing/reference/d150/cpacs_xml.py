@@ -59,7 +59,7 @@ def child(node: Any, path: str) -> Any:
 
 
 def looked_up(table: Mapping[Any, T], key: str | None, node: Any, what: str) -> T:
-    """What an element refers to.
+    """The element that another one refers to.
 
     Raises:
         ValueError: the file does not have it; says the line.
@@ -70,5 +70,5 @@ def looked_up(table: Mapping[Any, T], key: str | None, node: Any, what: str) -> 
 
 
 def place(node: Any) -> str:
-    """Where an element stands."""
+    """Path of an element in its file, for messages."""
     return f"line {node.sourceline}: <{etree.QName(node).localname}>"

@@ -70,7 +70,7 @@ class LiftingSurface:
 
     @property
     def span(self) -> float:
-        """From root to tip along the span coordinate, m."""
+        """Length from root to tip along the span coordinate, m."""
         return float(self.leading[-1, self.span_axis]) - self.root
 
     def station(self, eta: npt.ArrayLike) -> Float64:

@@ -374,7 +374,7 @@ def _grid_value(x: float) -> float:
 
 
 def density(material: int) -> float:
-    """Of a material by its id, kg/m³; 0 for the beam models' massless aluminium."""
+    """Density of a material by id, kg/m³; 0 for the beam models' massless aluminium."""
     densities = {m["id"]: m["rho"] for m in facts("materials").values()}
     return densities.get(material, 0.0)
 

@@ -10,12 +10,12 @@ from drake_landing.reference.d150.shell_elements import BoxSizing, Law
 
 
 def box_sizing(name: str) -> BoxSizing:
-    """Of the box of `wing`, `tailplane` or `fin`."""
+    """Sizes of the box of `wing`, `tailplane` or `fin`."""
     return _wing() if name == "wing" else _tail(name)
 
 
 def movable_sizing(name: str) -> BoxSizing:
-    """Of a movable: uniform sheets, stiffened skins."""
+    """Sizes of a movable: uniform sheets, stiffened skins."""
     data = facts("shells")["movables"]
     sheets = data[name]
     return BoxSizing(
@@ -28,7 +28,7 @@ def movable_sizing(name: str) -> BoxSizing:
 
 
 def smeared(sizing: BoxSizing, *, caps: bool) -> BoxSizing:
-    """The same box with its stringers smeared over the skins.
+    """Copy of the box with its stringers smeared over the skins.
 
     Args:
         sizing: with stringers.

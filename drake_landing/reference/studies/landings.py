@@ -57,14 +57,14 @@ class LandingTask:
 
     @property
     def duration(self) -> float:
-        """Of the transient, s."""
+        """Duration of the transient, s."""
         landing = self.case.simulation.duration
         assert landing != "auto"  # runs are compared over the same time
         return self.case.transient_duration(landing)
 
     @property
     def key(self) -> str:
-        """Of everything that the run depends on, the program's own text included."""
+        """Hash of everything that the run depends on, the program's text included."""
         gears = [gear.model_dump_json() for gear in self.aircraft.gears]
         case = self.case
         return content_key(

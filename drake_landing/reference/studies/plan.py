@@ -105,7 +105,7 @@ class RunName:
 
     @property
     def words(self) -> str:
-        """For titles."""
+        """Name for titles."""
         kind, value = self.parsed.kind, self.parsed.value
         if kind == "count":
             said = "rigid airframe" if value == 0 else f"lowest {value:g} modes"

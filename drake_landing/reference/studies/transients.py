@@ -32,7 +32,7 @@ class TransientTask:
 
     @property
     def key(self) -> str:
-        """Of everything that the response depends on."""
+        """Hash of everything that the response depends on."""
         a, loads = self.airframe, self.loads
         return content_key(
             source_key("fem", "drake_landing.transient"),
@@ -85,7 +85,7 @@ def _respond(
     told: Callable[[float, str], None],
     announce: Callable[[str], None],
 ) -> list[Float64]:
-    """Of loads on one and the same set of matrices."""
+    """Responses to loads on one and the same set of matrices."""
     first = tasks[0].airframe
     structure, step = first.structure, tasks[0].loads.step
     count = len(tasks[0].loads.time) - 1

@@ -38,7 +38,7 @@ class Units:
         return self.force * self.length
 
     def factor(self, dimension: str) -> float:
-        """Of a dimension of a record.
+        """Factor to SI of a dimension of a record.
 
         >>> f"{Units(length=0.001, mass=1000.0).factor('M/L3'):g}"  # t/mm³ in kg/m³
         '1e+12'
@@ -54,7 +54,7 @@ class Units:
 
 @dataclass(frozen=True)
 class Context:
-    """What the conversion of a card may need to know.
+    """Facts of the deck that the conversion of a card may need.
 
     Attributes:
         card: its name.

@@ -283,7 +283,7 @@ def eigrl(columns: Columns, problems: Problems) -> None:
 
 
 def freq3(columns: Columns, problems: Problems) -> None:
-    """Between frequencies that are not negative, at least their ends."""
+    """Checks FREQ3: frequencies that are not negative, at least both ends wanted."""
     for row, f1 in enumerate(columns["f1"]):
         f2, nef = columns["f2"][row], columns["nef"][row]
         kind, cluster = columns["type"][row], columns["cluster"][row]

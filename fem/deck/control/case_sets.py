@@ -45,7 +45,7 @@ class SetReader:
         return True
 
     def selection(self, text: str) -> Selection:
-        """What a request asks for: ALL, NONE or a set.
+        """The ids that a request asks for: ALL, NONE or a set.
 
         Raises:
             ValueError: the set is not defined.

@@ -173,5 +173,5 @@ class Card:
 
     @property
     def topology(self) -> Topology | None:
-        """Of its element."""
+        """Topology of its element; None: it is no element, or has no shape."""
         return self.element.topology if self.element else None

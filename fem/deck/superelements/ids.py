@@ -38,7 +38,7 @@ def ids_of_kind(tables: Mapping[str, pd.DataFrame], kind: str) -> set[int]:
 
 
 def offsets(whole: list[Tables], part: Tables, number: int) -> dict[str, int]:
-    """What is added to the ids of a part, by kind; 0 where they are free."""
+    """Numbers added to the ids of a part, by kind; 0 where its ids are free."""
     found = {}
     for kind in sorted(set(_KINDS.values())):
         taken: set[int] = set().union(*(ids_of_kind(tables, kind) for tables in whole))

@@ -48,7 +48,7 @@ def images(deck: Deck) -> dict[int, int]:
 
 
 def check_images(deck: Deck, primaries: set[int]) -> list[str]:
-    """What images need and the deck does not have.
+    """Problems of images: sections and cards that they need.
 
     Args:
         deck: main bulk data.

@@ -89,7 +89,7 @@ class _Lists:
         return number
 
     def table(self) -> pd.DataFrame:
-        """Those that were asked for."""
+        """Rows of the lists that were renamed."""
         found = []
         for (number, kind), new in self.numbers.items():
             rows = self._table[self._table["sid"] == number].copy()

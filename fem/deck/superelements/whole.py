@@ -159,7 +159,7 @@ def with_modal(table: pd.DataFrame, parts: Sequence[Superelement]) -> pd.DataFra
 
 
 def check_sections(deck: Deck, parts: Mapping[int, Deck]) -> list[str]:
-    """What SEBULK and SELOC ask for and the deck does not have.
+    """Parts that SEBULK and SELOC ask for and the deck does not have.
 
     Args:
         deck: main bulk data.

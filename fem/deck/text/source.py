@@ -29,7 +29,7 @@ _LONGEST_LINE = 10_000  # characters; a path on one line may be long
 
 @dataclass(frozen=True)
 class Reach:
-    """What INCLUDE may read beside the folder of the deck.
+    """Folders that INCLUDE may read beside that of the deck.
 
     Attributes:
         folders: that the user adds, searched too.

@@ -64,7 +64,7 @@ class Connectors(DenseBlock):
         return congruence(self.feet, half)
 
     def forces(self) -> Recovery:
-        """Of fasteners as of CBUSH, of welds as of CBAR."""
+        """Forces of fasteners as of CBUSH, of welds as of CBAR."""
         middle = self.k[:, :, None] * self.motion
         if self.card == "CFAST":
             columns, matrix = BUSH_FORCE, middle

@@ -44,7 +44,7 @@ class Beam(LineBlock):
     property_card = "PBEAM"
 
     def with_nonstructural_mass(self, per_length: Float64) -> "Beam":
-        """The same beams with additional mass per length (e,)."""
+        """Copy with additional mass per length (e,)."""
         nsm = self.section.values["nsm"] + per_length[:, None]
         section = replace(self.section, values={**self.section.values, "nsm": nsm})
         return replace(self, section=section)

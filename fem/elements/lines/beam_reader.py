@@ -47,7 +47,7 @@ def read_cbeam(deck: "Deck", points: Points) -> list[Beam]:
 
 
 def beam_notices(deck: "Deck") -> list[str]:
-    """What PBEAM cards ask for and is not modelled, or does nothing."""
+    """Notices of what PBEAM asks for and is not modeled, or does nothing."""
     rows, properties = table(deck, "CBEAM"), table(deck, "PBEAM")
     free = rows.loc[~_ends(rows).any(axis=1), "pid"]
     notices = []

@@ -77,7 +77,7 @@ def read_cgap(deck: "Deck", points: Points) -> list[Gaps]:
 
 
 def gap_notices(deck: "Deck") -> list[str]:
-    """That gaps stay as they are at the start."""
+    """Notice that gaps stay as they are at the start."""
     count = len(table(deck, "CGAP"))
     if not count:
         return []

@@ -353,7 +353,7 @@ class CurvedShell(Shell):
         return found.reshape(len(self.id), len(at), 6, 6)
 
     def recovery(self, kind: Kind, detail: Detail = CENTER) -> Recovery | None:
-        """As `Shell.recovery`, always with the corners, as Nastran prints them."""
+        """Recovery as `Shell.recovery`, always with corners, as Nastran prints them."""
         return super().recovery(kind, replace(detail, corner=True))
 
 

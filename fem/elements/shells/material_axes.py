@@ -38,7 +38,7 @@ def _sine(direction: Float64, normal: Float64) -> Float64:
 
 
 def steep_systems(deck: "Deck", points: Points) -> list[str]:
-    """What is said of elements with a material axis almost normal that counts."""
+    """Notices of elements whose material axis is almost normal to them, and counts."""
     found = [place for card in _CORNERS for place in _steep(deck, points, card)]
     if not found:
         return []

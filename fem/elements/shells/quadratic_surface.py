@@ -95,7 +95,7 @@ class Surface:
 
     @cached_property
     def complete(self) -> "Surface":
-        """That of the strains: all mid-sides, and the middle of a quadrilateral."""
+        """The surface for strains: all mid-sides, and the middle of quadrilaterals."""
         nodes = self.nodes if self.whole is None else self.whole
         powers = self.powers
         if self.even:

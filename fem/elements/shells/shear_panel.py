@@ -199,7 +199,7 @@ class ShearPanel(DenseBlock):
         return facet(self.corners).area
 
     def with_nonstructural_mass(self, per_area: Float64) -> "ShearPanel":
-        """The same panels with additional mass per area (e,)."""
+        """Copy with additional mass per area (e,)."""
         return replace(self, nsm=self.nsm + per_area)
 
     def _flow(self, shape: PanelShape) -> Float64:

@@ -93,7 +93,7 @@ class Shell(DenseBlock):
         return replace(self, section=self.section.take(part), **chosen)
 
     def with_nonstructural_mass(self, per_area: Float64) -> "Shell":
-        """The same shells with additional mass per area (e,)."""
+        """Copy with additional mass per area (e,)."""
         total = self.section.nonstructural + per_area
         return replace(self, section=replace(self.section, nonstructural=total))
 

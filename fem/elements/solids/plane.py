@@ -201,11 +201,11 @@ class Slice(DenseBlock):
         return self._spread(moved, (1,))
 
     def stresses(self) -> Recovery:
-        """At the center and the corners."""
+        """Stresses at the center and the corners."""
         return self._recovery(strain=False)
 
     def strains(self) -> Recovery:
-        """At the center and the corners."""
+        """Strains at the center and the corners."""
         return self._recovery(strain=True)
 
     def _recovery(self, *, strain: bool) -> Recovery:

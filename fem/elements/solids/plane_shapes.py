@@ -17,7 +17,7 @@ _AROUND = [0, 2, 4, 1, 3, 5]  # corners first, of grids that go round
 
 
 def triangle(count: int) -> Shapes:
-    """Of 3 or 6 grids: shape functions (q, n) and derivatives (q, 2, n)."""
+    """Triangle of 3 or 6 grids: shape functions (q, n), derivatives (q, 2, n)."""
     there = np.arange(6) % 2 == 0 if count == 3 else np.ones(6, bool)
 
     def shapes(points: Float64) -> tuple[Float64, Float64]:

@@ -160,11 +160,11 @@ class Ring(DenseBlock):
         return moved[:, self.order].reshape(len(self.id), -1)
 
     def stresses(self) -> Recovery:
-        """At the center and the corners, axes of the material."""
+        """Stresses at the center and the corners, axes of the material."""
         return self._recovery(strain=False)
 
     def strains(self) -> Recovery:
-        """At the center and the corners, axes of the material."""
+        """Strains at the center and the corners, axes of the material."""
         return self._recovery(strain=True)
 
     def _recovery(self, *, strain: bool) -> Recovery:

@@ -75,7 +75,7 @@ def displacement_solid(
 
 @dataclass(frozen=True, kw_only=True)
 class Sampling:
-    """Where the strains of an element with reduced shear are taken.
+    """Points at which an element with reduced shear takes its strains.
 
     Attributes:
         fine: quadrature of the strains that are taken as they are.
@@ -151,7 +151,7 @@ def reduced_shear_solid(
 
 @dataclass(frozen=True, kw_only=True)
 class ShearLines:
-    """Where the shear strains of a linear element are taken, in its own axes.
+    """Lines along which a linear element takes its shear strains, in its own axes.
 
     Attributes:
         axes: element axes (e, 3, 3) from the Jacobian at the center.

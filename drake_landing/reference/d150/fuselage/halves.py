@@ -36,7 +36,7 @@ class Halves:
         self._at: dict[tuple[float, ...], Int64] = {}
 
     def shared(self, part: str, p: Float64) -> Int64:
-        """As `grids`, but takes the twins that stand at a position already."""
+        """Like `grids`, but takes the twins that stand at a position already."""
         twins = []
         for x in p:
             found = self._at.get(_key(x))

@@ -37,7 +37,7 @@ FIRST_ID = 1_000_001
 
 @dataclass(frozen=True, kw_only=True)
 class FuselageShell:
-    """What others hold on to.
+    """Grids of the fuselage to which other parts attach.
 
     Attributes:
         hull: skin grids.
