@@ -9,7 +9,7 @@ from pydantic import (
 )
 
 from drake_landing.case.section import Section, number
-from drake_landing.integrators import DEFAULT, Integrator
+from drake_landing.landing_integrators import DEFAULT, Integrator
 
 Duration = Annotated[
     Annotated[Literal["auto"], Tag("(name)")]

@@ -25,7 +25,7 @@ from drake_landing.gears.bodies import AddLandingGear
 from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mounted import each_of
 from drake_landing.gears.systems import AddGearSystems
-from drake_landing.integrators import DEFAULT
+from drake_landing.landing_integrators import DEFAULT
 from systems.gear.energy_budget import AddEnergyBudget
 from systems.runway.runway import Runway
 from systems.shock_absorber.strut_parameters import ShockAbsorberTunables

@@ -17,9 +17,9 @@ from pydrake.systems.analysis import ApplySimulatorConfig, Simulator, SimulatorC
 from pydrake.systems.framework import Context, EventStatus
 
 from drake_landing.case.scenario import Scenario
-from drake_landing.integrators import DEFAULT
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.start import set_scenario_state
+from drake_landing.landing_integrators import DEFAULT
 from systems.shock_absorber.strut_parameters import ShockAbsorberTunables
 from systems.tire.tire import TireTunables
 

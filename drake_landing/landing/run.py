@@ -19,7 +19,6 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.case.simulation import Simulation
 from drake_landing.gears.landing_gear import LandingGear
 from drake_landing.gears.mounted import systems_of
-from drake_landing.integrators import IMPLICIT
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.handover import distinct_instants
 from drake_landing.landing.history import (
@@ -40,6 +39,7 @@ from drake_landing.landing.start import (
     set_scenario_state,
 )
 from drake_landing.landing.threads import single_threaded_blas
+from drake_landing.landing_integrators import IMPLICIT
 from drake_landing.progress import Reporter, Silent
 from fem.errors import InputError
 from systems.airframe.modal_body import ModalBody

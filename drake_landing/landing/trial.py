@@ -15,10 +15,10 @@ from pydrake.systems.framework import Context
 
 from drake_landing.case.scenario import Scenario
 from drake_landing.gears.landing_gear import LandingGear
-from drake_landing.integrators import DEFAULT
 from drake_landing.landing.audit import Audit, Signals, audit, gear_loads
 from drake_landing.landing.diagram import LandingDiagram
 from drake_landing.landing.start import make_scenario_diagram, set_scenario_state
+from drake_landing.landing_integrators import DEFAULT
 from systems.airframe.modal_body import ModalBody
 
 
