@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from difflib import get_close_matches
 
-_FEW = 3  # notices of one kind that are told one by one
+_FEW = 3  # notices of one kind that are listed one by one
 _PLACES = re.compile(r"[^\s(]+:\d+")
 _NUMBERS = re.compile(r"\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
 _MOST_SHOWN = 200  # problems
@@ -21,7 +21,7 @@ class InputError(ValueError):
 
     Args:
         problems: one line of text per problem, in the order of the input; what several
-            readers have found is told once.
+            readers have found is listed once.
     """
 
     def __init__(self, problems: str | Iterable[str]) -> None:

@@ -168,14 +168,14 @@ class PartsWatch:
         return [maps, operators, self.stresses.limits, *s.content]
 
     def arrays(self) -> dict[str, npt.NDArray]:
-        """All that was found, for `restore`."""
+        """Results as arrays, for `restore`."""
         found = {f"stress_{k}": v for k, v in self._stress.arrays().items()}
         for name, seen in self._moved().items():
             found |= {f"{name}_time": seen.time, name: seen.values}
         return found
 
     def restore(self, arrays: Mapping[str, npt.NDArray]) -> None:
-        """Takes over what was found before with the same `content`."""
+        """Takes over the results of an observer with the same `content`."""
         prefix = "stress_"
         self._stress.restore(
             {k.removeprefix(prefix): v for k, v in arrays.items() if prefix in k}

@@ -106,7 +106,7 @@ class StressWatch:
         return 8 * snapshots + self._seen.memory_bytes(times, cases, size)
 
     def arrays(self) -> dict[str, npt.NDArray]:
-        """All that was found, for `restore`."""
+        """Extremes and their instants as arrays, for `restore`."""
         worst, state = list(self.worst.values()), self._seen.state
         _, size = shape_of(self.stresses.expand)
         return {

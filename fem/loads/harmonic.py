@@ -94,7 +94,7 @@ def harmonic_excitation(
 
 
 class _Sum:
-    """Patterns (size,) times factors (f,), as they are found."""
+    """Sum of patterns (size,) times factors (f,), gathered one by one."""
 
     def __init__(self, size: int) -> None:
         self._size = size

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class _Collected:
-    """Faces as they are found."""
+    """Loaded faces, gathered card by card."""
 
     corners: list[Int64] = field(default_factory=list)
     middles: list[Int64] = field(default_factory=list)

@@ -125,7 +125,12 @@ class GeneralizedAlpha:
         state: tuple[Float64, Float64, Float64],
         factors: Float64,
     ) -> Float64:
-        """a(n+1) from the balance at the intermediate time."""
+        """a(n+1) from the balance at the intermediate time.
+
+        x and y are displacement and velocity there without the part of a(n+1). With
+        B = k K + m M + B', K (x + k y) = σ K z = S z - μ M z - ν B' z: solved for
+        a(n+1) + z, the balance has products with M and B' alone.
+        """
         alpha_m, alpha_f, beta, gamma = self.parameters
         sigma, mu, nu = self.matrix_factors(system, h)
         u, v, a = state
@@ -156,7 +161,11 @@ def _initial_acceleration(
     v: Float64,
     h: float,
 ) -> Float64:
-    """a(0) of the equation of motion; massless freedoms follow their neighbours."""
+    """a(0) of the equation of motion.
+
+    M may be singular: forces on massless freedoms are left out, and a trace of K lets
+    these freedoms follow their neighbors.
+    """
     right = -system.stiffness_times(u) - system.damping_times(v)
     if load is not None:
         factors = load.factors(np.zeros(1))[:, :, 0]

@@ -154,6 +154,12 @@ class NastranScheme:
         u0: Float64,
         v0: Float64,
     ) -> "_Start":
+        """u(-1) and the loads of the times before, as the module's text has them.
+
+        The loads P(-1) and, at the very start, P(0) are no patterns times factors: they
+        are what balances the given motion, so that it goes on without a jerk. They act
+        in the means of the first two steps, hence the thirds.
+        """
         h = group.step
         if past is None:
             first = system.stiffness_times(u0) + system.damping_times(v0)
@@ -173,7 +179,13 @@ class NastranScheme:
 
 @dataclass(frozen=True)
 class _Start:
-    """Start of a group: u(0), u(-1), loads added to the first two steps, given v(0)."""
+    """Start of a group of equal steps.
+
+    Attributes:
+        u, before: (c, n) u(0) and u(-1).
+        first_extra, second_extra: (c, n) loads added to the first two steps.
+        velocity: (c, n) v(0) where it was given; else it is a central difference.
+    """
 
     u: Float64
     before: Float64
@@ -211,7 +223,11 @@ class _Loads:
 def _mean_factors(
     load: TransientLoad | None, group: StepGroup, cases: int, uses_first: bool
 ) -> Float64:
-    """Load factors (steps, c, k) averaged over three neighbouring times."""
+    """Load factors (steps, c, k) averaged over three neighbouring times.
+
+    The first step has no time before: what acts there, and at the very start what acts
+    at t = 0, is in `_Start`.
+    """
     time = group.time(np.arange(group.count + 2))
     if load is None:
         return np.zeros((group.count + 1, cases, 0))

@@ -27,8 +27,9 @@ any quadratic deflection of a plane element with straight sides is met (MacNeal 
 Harder, Eight nodes or nine?, IJNME 33, 1992, from memory); on parallelograms this is
 the interpolation of eight nodes.
 
-Found in MSC Nastran's grid point forces, moments and deflections of squares, a
-rectangle and half squares, with and without mid-sides (single precision).
+The factors of the filter are those that reproduce MSC Nastran's grid point forces,
+moments and deflections of squares, a rectangle and half squares, with and without
+mid-sides (single precision).
 """
 
 from collections.abc import Sequence
