@@ -24,7 +24,7 @@ from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck, Superelement
 from fem.deck.design_variables import set_initial_values
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
-from fem.deck.prisms import turn_prisms
+from fem.deck.reversed_solids import turn_solids
 from fem.deck.pynastran_cards import rows_from_pynastran
 from fem.deck.superelements.images import (
     check_images,
@@ -227,7 +227,7 @@ def _deck(
     )
     if not problems:
         clean(tables, ignored, notices)
-        turn_prisms(tables, notices)
+        turn_solids(tables, notices)
         if case.subcases:
             drop_unused_equations(tables, case.subcases, notices)
         problems += check(deck, partial=partial)

@@ -236,7 +236,7 @@ def test_material_system_of_a_solid_turns_mat9(blocks):
             SQUARE,
             ["PCOMP 1", "SMCORE"],
         ),
-        ("CHEXA,1,1,5,6,7,8,1,2\n,3,4", CUBE, ["CHEXA 1", "Jacobian"]),
+        ("CHEXA,1,1,1,2,3,4,6,5\n,8,7", CUBE, ["CHEXA 1", "Jacobian"]),
         ("CTETRA,1,1,1,2,3,4", CUBE, ["CTETRA 1", "Jacobian"]),
         ("CHEXA,1,3,1,2,3,4,5,6\n,7,8", CUBE, ["CHEXA 1", "PSOLID or PCOMPS 3"]),
         ("CSHEAR,1,1,1,2,4,3\nPSHEAR,1,1,.1", SQUARE, ["CSHEAR 1", "order"]),
