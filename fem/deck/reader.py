@@ -24,8 +24,8 @@ from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck, Superelement
 from fem.deck.design_variables import set_initial_values
 from fem.deck.mass_increments import POINTS, check_combinations, set_aside
-from fem.deck.reversed_solids import turn_solids
 from fem.deck.pynastran_cards import rows_from_pynastran
+from fem.deck.reversed_solids import turn_solids
 from fem.deck.superelements.images import (
     check_images,
     images,
