@@ -94,9 +94,12 @@ def solve_frequencies(
 
 
 def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
-    """Matrices of the analysis set with their damping."""
+    """Matrices of the analysis set with their damping.
+
+    Rayleigh's, ALPHA1 M + ALPHA2 K, is viscous as in transients.
+    """
     varying = FrequencyDependence.from_deck(model.deck, model.points, model.blocks)
-    g = float(model.deck.number("G"))
+    g, alpha1, alpha2 = (model.deck.number(name) for name in ("G", "ALPHA1", "ALPHA2"))
     given, expand = model.matrices, reduced.expand
 
     def own(matrix: sp.csr_matrix) -> sp.csr_matrix | None:
@@ -106,6 +109,9 @@ def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
     if g:
         structural = _sum(structural, sp.csr_matrix(g * reduced.stiffness))
     stiffness, mass, viscous = reduced.stiffness, reduced.mass, own(given.damping)
+    for factor, matrix in ((alpha1, mass), (alpha2, stiffness)):
+        if factor:
+            viscous = _sum(viscous, sp.csr_matrix(factor * matrix))
     if (more := reduced.direct) is not None:
         stiffness = sp.csr_matrix(stiffness + more.stiffness)
         mass = sp.csr_matrix(mass + more.mass)
@@ -128,7 +134,10 @@ def _matrices(model: Structure, reduced: AnalysisModel) -> HarmonicMatrices:
         return replace(
             nominal,
             stiffness=sp.csr_matrix(nominal.stiffness + stiffness),
-            viscous=_sum(nominal.viscous, own(change.damping)),
+            viscous=_sum(
+                nominal.viscous,
+                own(sp.csr_matrix(change.damping + alpha2 * change.stiffness)),
+            ),
             structural=_sum(nominal.structural, own(sp.csr_matrix(loss))),
         )
 
@@ -342,16 +351,18 @@ def _write(
 
 def _residual(model: Structure, rate: Complex128, u_g: Complex128) -> Complex128:
     """(f, g) forces of inertia, damping and stiffness."""
-    m, g = model.matrices, float(model.deck.number("G"))
-    force = (1.0 + 1j * g) * (m.stiffness @ u_g.T).T
+    m = model.matrices
+    g, alpha1, alpha2 = (model.deck.number(name) for name in ("G", "ALPHA1", "ALPHA2"))
+    force = (1.0 + 1j * g + rate * alpha2) * (m.stiffness @ u_g.T).T
     force += 1j * (m.structural_damping @ u_g.T).T
-    force += rate**2 * (m.mass @ u_g.T).T
+    force += (rate**2 + rate * alpha1) * (m.mass @ u_g.T).T
     force += rate * (m.damping @ u_g.T).T
     varying = FrequencyDependence.from_deck(model.deck, model.points, model.blocks)
     if varying is not None:
         for k, w in enumerate(rate[:, 0]):
             own, u = varying.at(w.imag / (2.0 * np.pi)), u_g[k]
-            force[k] += (1.0 + 1j * g) * (own.stiffness @ u) + w * (own.damping @ u)
+            force[k] += (1.0 + 1j * g + w * alpha2) * (own.stiffness @ u)
+            force[k] += w * (own.damping @ u)
             force[k] += 1j * (own.structural_damping @ u)
     return force
 

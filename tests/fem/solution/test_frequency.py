@@ -138,6 +138,18 @@ def test_modal_damping_is_viscous_or_structural(solve):
         assert found["frequency/1/displacement"][:, 1, 0] == pytest.approx(u, rel=1e-9)
 
 
+@pytest.mark.parametrize("sol", [108, 111])
+def test_rayleigh_damping_is_viscous(solve, sol):
+    """ALPHA1 M + ALPHA2 K, the damper beside it."""
+    bulk = f"PARAM,ALPHA1,3.,0.\nPARAM,ALPHA2,.002,0.\n{OSCILLATOR}"
+    found = solve(sol, f"{CASE}SPCF = ALL\n", bulk)[0]
+    omega = 2.0 * np.pi * found["frequency/1/frequency_hz"]
+    spring = K + 1j * omega * (B + 0.002 * K)
+    u = first(omega) / (spring + 3.0j * omega * M - omega**2 * M)
+    assert found["frequency/1/displacement"][:, 1, 0] == pytest.approx(u, rel=1e-9)
+    assert found["frequency/1/spc_force"][:, 0, 0] == pytest.approx(-spring * u)
+
+
 def test_a_cantilever_moves_as_the_wave_equation_says(solve):
     """Tip of an Euler beam with structural damping under a harmonic force."""
     length, young, inertia, area, rho, g = 1.0, 7e10, 2e-6, 0.01, 2700.0, 0.05
