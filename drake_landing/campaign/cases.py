@@ -25,7 +25,7 @@ from drake_landing.case.reading import (
 )
 from drake_landing.case.schema import Case
 from drake_landing.gears.landing_gear import LandingGear
-from fem.errors import InputError, nearest
+from fem.errors import Problems, nearest
 
 Data = dict[str, Any]
 
@@ -93,7 +93,7 @@ class BaseCase:
         if touches_gears and not isinstance(data.get("gears"), list):
             data["gears"] = copy.deepcopy(self._gears)
         data["name"] = name
-        problems = []
+        problems = Problems()
         for path, value in values.items():
             scaled = isinstance(axes.get(path), Scale)
             problems += _set(data, path, value, scaled)
@@ -101,8 +101,7 @@ class BaseCase:
             case = Case.model_validate(data, context={"folder": self.folder})
         except ValidationError as error:
             problems += [f"axes.{text}" for text in problems_of(Case, error, data)]
-        if problems:
-            raise InputError(problems)
+        problems.report()
         return case
 
 

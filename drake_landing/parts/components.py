@@ -8,7 +8,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.case.parts import Component
-from fem.errors import InputError, nearest
+from fem.errors import InputError, Problems, nearest
 from fem.model.structure import Structure
 
 Bool = npt.NDArray[np.bool_]
@@ -29,7 +29,7 @@ def members(
     """
     free = np.ones(len(elements), bool)
     found: dict[str, Bool] = {}
-    problems: list[str] = []
+    problems = Problems()
     for name, component in components.items():
         own = np.zeros(len(elements), bool)
         for key, chosen, there in (
@@ -50,8 +50,7 @@ def members(
                 own |= fits
         found[name] = own & free
         free &= ~own
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return found
 
 

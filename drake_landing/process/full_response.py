@@ -31,7 +31,7 @@ from drake_landing.transient.cached import Response, kept_response, response_key
 from drake_landing.transient.extremes import OfFirstCase, element_envelopes
 from drake_landing.transient.practices import Practices, compare_practices
 from drake_landing.transient.response import transient_response
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.model.structure import Structure
 from fem.recovery.envelope import Envelope
 from fem.response.direct import TransientRun
@@ -177,7 +177,7 @@ def parts_looked_at(
     Raises:
         InputError: components, cuts or grids that the deck does not have.
     """
-    cutter, problems = Cutter(structure), []
+    cutter, problems = Cutter(structure), Problems()
     try:
         elements = inventory(structure, case.parts.allowables, case.parts.components)
     except InputError as error:
@@ -195,8 +195,7 @@ def parts_looked_at(
         )
     except InputError as error:
         raise InputError([*problems, *error.problems]) from None
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return cutter, elements, places
 
 

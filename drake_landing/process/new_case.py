@@ -36,7 +36,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.deck import Deck
 from fem.deck.reader import read_deck
 from fem.deck.units import SYSTEMS, in_si, units_of
-from fem.errors import InputError, nearest
+from fem.errors import InputError, Problems, nearest
 from fem.model.structure import Structure
 
 _GRAVITY = 9.81  # m/s²
@@ -68,7 +68,7 @@ class Stated:
 
     def check(self) -> None:
         """Raises an InputError with all that cannot be meant."""
-        problems = []
+        problems = Problems()
         for option in ("forward", "up"):
             axis = getattr(self, option)
             if axis is not None and axis not in _AXES:
@@ -85,8 +85,7 @@ class Stated:
                 f"--up: found {self.up}, expected another axis than that of --forward "
                 f"{self.forward}"
             )
-        if problems:
-            raise InputError(problems)
+        problems.report()
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from drake_landing.reduced.model import ReducedModel
-from fem.errors import InputError, nearest
+from fem.errors import InputError, Problems, nearest
 from fem.files.matrices import read_matrices
 from fem.matrix_files.named import NamedMatrix
 
@@ -117,7 +117,7 @@ def read_grids(path: Path) -> pd.DataFrame:
     if "components" not in table:
         table["components"] = ALL
     table["components"] = table["components"].fillna("").str.strip()
-    problems = []
+    problems = Problems()
     for column in ("id", "x", "y", "z"):
         numbers = pd.to_numeric(table[column], errors="coerce")
         for row in np.flatnonzero(~np.isfinite(numbers)):
@@ -131,8 +131,7 @@ def read_grids(path: Path) -> pd.DataFrame:
             problems.append(
                 f"{path}:{row + 2}: components: found '{digits}', expected digits 1-6"
             )
-    if problems:
-        raise InputError(problems)
+    problems.report()
     table["id"] = table["id"].astype(np.int64)
     if twice := table.id[table.id.duplicated()].tolist():
         raise InputError(f"{path}: grid {', '.join(map(str, twice))} is there twice")

@@ -286,7 +286,7 @@ def _solve_loops(
     block = sp.csr_matrix(
         (inside.data[same], (inside.row[same], inside.col[same])), shape=among.shape
     )
-    problems = []
+    problems = Problems()
     for g in np.unique(group[looped]):
         rows = np.flatnonzero(group == g)
         local = np.eye(len(rows)) - _dense(block, rows)
@@ -298,8 +298,7 @@ def _solve_loops(
             )
             continue
         identity[np.ix_(rows, rows)] = np.linalg.inv(local)
-    if problems:
-        raise InputError(problems)
+    problems.report()
     solve = sp.csr_matrix(identity)
     return solve, sp.csr_matrix(solve @ (among - block))
 

@@ -10,7 +10,7 @@ import pandas as pd
 from fem.constraints.equations import components
 from fem.constraints.sets import member_sets
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def freedoms(
     grids: list[int] = []
     comps: list[int] = []
     values: list[float] = []
-    problems = []
+    problems = Problems()
     scalar = set(points.spoint_id.tolist())
     for g, c, d in zip(rows["g"], rows["c"], rows["d"]):
         numbers = [0] if int(g) in scalar else (components(c) + 1).tolist()
@@ -79,7 +79,6 @@ def freedoms(
     for g in sorted({g for g, k in zip(grids, known) if not k}):
         first = rows[rows["g"] == g].iloc[0]
         problems.append(f"{where(card, first)}: grid {g} is not defined")
-    if problems:
-        raise InputError(problems)
+    problems.report()
     dof = points.dof(np.array(grids, np.int64), np.array(comps, np.int64))
     return dof, np.array(values, float)

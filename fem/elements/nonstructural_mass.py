@@ -13,7 +13,7 @@ import pandas as pd
 
 from fem.arrays import Bool, Float64, Int64
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -74,13 +74,12 @@ def add_nonstructural_mass(
     sets = _members(deck, sid)
     takers = [b for b in blocks if isinstance(b, TakesNonstructuralMass)]
     added = [np.zeros(len(b.id)) for b in takers]
-    problems = []
+    problems = Problems()
     for card in ("NSM", "NSML"):
         rows = table(deck, card)
         for _, row in rows[rows["sid"].isin(sets)].iterrows():
             problems += _spread(row, card, takers, added)
-    if problems:
-        raise InputError(problems)
+    problems.report()
     heavier = {
         id(b): b.with_nonstructural_mass(a) for b, a in zip(takers, added) if a.any()
     }

@@ -16,7 +16,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from fem.arrays import Float64, Int64
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 
 Kind = Literal["R", "C", "S"]
 
@@ -181,7 +181,7 @@ def resolve(cord: pd.DataFrame, grid: pd.DataFrame) -> tuple[Frames, Float64]:
     cp = grid["cp"].to_numpy(np.int64)
     x = grid[["x1", "x2", "x3"]].to_numpy(np.float64)
     row = dict(zip(grid["id"].tolist(), range(len(grid)), strict=True))
-    problems: list[str] = []
+    problems = Problems()
     while pending:
         waiting = []
         for card in pending:
@@ -202,8 +202,7 @@ def resolve(cord: pd.DataFrame, grid: pd.DataFrame) -> tuple[Frames, Float64]:
     for cid in missing:
         ids = grid["id"].to_numpy()[cp == cid][:5].tolist()
         problems.append(f"GRID {ids}: coordinate system CP {cid} is not defined")
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return frames, frames.to_basic(cp, x)
 
 

@@ -24,7 +24,7 @@ from fem.deck.references import table, where
 from fem.elements.lines.bar import Bar, read_cbar
 from fem.elements.lines.beam import Beam, BeamSection
 from fem.elements.lines.beam_reader import read_cbeam
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 from fem.loads.bend_loads import loads_of_bends
 from fem.loads.element_loads import ElementLoads, below_each_other
@@ -97,15 +97,14 @@ def loads_of_bars(deck: "Deck", points: Points, rows: pd.DataFrame) -> ElementLo
 
 
 def _check(rows: pd.DataFrame) -> None:
-    problems = []
+    problems = Problems()
     for column, known in (("type", TYPES), ("scale", SCALES)):
         for _, row in rows[~rows[column].isin(known)].iterrows():
             problems.append(
                 f"{where('PLOAD1', row)}: {column.upper()} {row[column]}, expected "
                 f"one of {', '.join(known)}"
             )
-    if problems:
-        raise InputError(problems)
+    problems.report()
 
 
 def _lines(deck: "Deck", points: Points, eids: Int64) -> _Lines:

@@ -16,7 +16,7 @@ import pandas as pd
 from fem.arrays import Float64
 from fem.deck.references import where
 from fem.elements.lines.bend import Bends, read_cbend, section_forces
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.points import Points
 from fem.loads.element_loads import ElementLoads
 
@@ -47,7 +47,7 @@ def loads_of_bends(deck: "Deck", points: Points, rows: pd.DataFrame) -> ElementL
 
 def _check(rows: pd.DataFrame, bends: Bends) -> None:
     length = bends.arc.radius * bends.arc.angle
-    problems = []
+    problems = Problems()
     for (_, row), whole in zip(rows.iterrows(), length):
         unit = whole if row["scale"] == "LE" else 1.0
         end = row["x1"] if np.isnan(row["x2"]) else row["x2"]
@@ -61,8 +61,7 @@ def _check(rows: pd.DataFrame, bends: Bends) -> None:
             f"{where('PLOAD1', row)}: {expected}: CBEND {row['eid']} takes loads along "
             "its whole length only, as in Nastran"
         )
-    if problems:
-        raise InputError(problems)
+    problems.report()
 
 
 def _ends(rows: pd.DataFrame, bends: Bends) -> Float64:

@@ -13,7 +13,7 @@ from fem.arrays import Float64
 from fem.deck.checks import FREQUENCIES
 from fem.deck.control.subcase import Subcase
 from fem.deck.references import where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 
 if TYPE_CHECKING:
     from fem.deck.deck import Deck
@@ -37,7 +37,7 @@ def frequencies(
         InputError: there is no such set, or it needs modes.
     """
     sid = subcase.frequency
-    found, problems = [np.zeros(0)], []
+    found, problems = [np.zeros(0)], Problems()
     for name in FREQUENCIES:
         rows = deck.cards[name]
         for _, row in rows[rows["sid"] == sid].iterrows():
@@ -48,8 +48,7 @@ def frequencies(
                 )
                 continue
             found.append(_one(name, row, np.zeros(0) if natural is None else natural))
-    if problems:
-        raise InputError(problems)
+    problems.report()
     hertz = np.unique(np.concatenate(found))
     hertz = hertz[hertz >= 0.0]
     if not len(hertz):

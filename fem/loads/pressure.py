@@ -14,7 +14,7 @@ from fem.arrays import Float64, Int64
 from fem.deck.grids import grids_of
 from fem.deck.records import Topology, topologies
 from fem.deck.references import where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points, grid_freedoms
 from fem.loads.faces import Faces, face_forces
 
@@ -96,14 +96,13 @@ def _pressure(
     for name, shape in topologies("surface").items():
         elements, own = _matching(deck.cards[name], loads)
         _add_shells(elements, shape, own, points, found[shape.corners])
-    problems: list[str] = []
+    problems = Problems()
     for name, shape in topologies("solid").items():
         elements, own = _matching(deck.cards[name], loads)
         if len(elements):
             solids = _Solids(name, shape, elements)
             _add_solids(solids, own, points, found, problems, card)
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return _forces(points, found)
 
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from fem.arrays import Float64, Int64
 from fem.deck.references import table, where
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def ploadx1(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Fl
         InputError: grids that are no corners of a side of the element.
     """
     elements = table(deck, "CTRIAX6").set_index("eid", drop=False)
-    found, problems = [], []
+    found, problems = [], Problems()
     for _, row in rows.iterrows():
         element = elements.loc[int(row["eid"])]
         ring = [int(element[f"g{k}"]) for k in range(1, 7)]
@@ -70,8 +70,7 @@ def ploadx1(deck: "Deck", points: Points, rows: pd.DataFrame) -> tuple[Int64, Fl
         pb = pa if np.isnan(row["pb"]) else float(row["pb"])
         grids = (ends[0], ring[side + 1], ends[1])
         found.append(_side(points, grids, (pa, pb), along))
-    if problems:
-        raise InputError(problems)
+    problems.report()
     return _together(found)
 
 

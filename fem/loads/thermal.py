@@ -24,7 +24,7 @@ from fem.elements.dense import DenseBlock
 from fem.elements.lines.line_block import LineBlock
 from fem.elements.lines.rod import Rod, stretched
 from fem.elements.shells.shell import Shell
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def free_motions(
             mid-sides that bend, deformed elements that are no rods or bars; all.
     """
     moved: dict[int, tuple[Float64, Float64]] = {}
-    problems: list[str] = []
+    problems = Problems()
     if subcase.temperature:
         given = _Temperatures(deck, points, "LOAD", subcase.temperature)
         before, first = None, subcase.initial_temperature
@@ -108,8 +108,7 @@ def free_motions(
         for k, motion in _deformed(deck, blocks, subcase.deform, problems):
             heated = moved.get(k, (0.0, np.zeros((len(motion), 2))))
             moved[k] = heated[0] + motion, heated[1]
-    if problems:
-        raise InputError(problems)
+    problems.report()
     if not moved:
         return None
     motions, heats = zip(*moved.values())

@@ -16,7 +16,7 @@ import pandas as pd
 
 from fem.arrays import Float64
 from fem.deck.references import column, table, where
-from fem.errors import InputError, nearest
+from fem.errors import InputError, Problems, nearest
 from fem.properties.failure import Strength
 from fem.properties.materials import check_moduli, complete
 
@@ -105,7 +105,7 @@ class ElasticityTable:
 
     def __init__(self, deck: "Deck") -> None:
         self._rows: dict[int, tuple[str, pd.Series]] = {}
-        problems = []
+        problems = Problems()
         for card in CARDS:
             for _, row in table(deck, card).iterrows():
                 mid = int(row["mid"])
@@ -115,8 +115,7 @@ class ElasticityTable:
                         f"{where(*self._rows[mid])}"
                     )
                 self._rows[mid] = (card, row)
-        if problems:
-            raise InputError(problems)
+        problems.report()
         self._made: dict[int, Elasticity] = {}
 
     @cached_property

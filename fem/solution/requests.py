@@ -10,7 +10,7 @@ from fem.deck.control.case_sets import Selection
 from fem.deck.control.subcase import Subcase
 from fem.deck.deck import Deck
 from fem.elements.block import Detail, Kind
-from fem.errors import InputError
+from fem.errors import InputError, Problems
 from fem.model.structure import Structure
 
 ELEMENT_RESULTS: tuple[tuple[str, Kind], ...] = (
@@ -60,7 +60,7 @@ def check_requests(deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]) ->
     Raises:
         InputError: each thing that is missing, with what the deck has to offer.
     """
-    problems = []
+    problems = Problems()
     for number, subcases in work:
         if number == 105 and not any(subcase.method for subcase in subcases):
             problems.append(
@@ -82,8 +82,7 @@ def check_requests(deck: Deck, work: Sequence[tuple[int, Sequence[Subcase]]]) ->
                         f"{deck.path}: subcase {subcase.id}: SOL {number} needs "
                         f"{command} in the case control ({why}); {offer}"
                     )
-    if problems:
-        raise InputError(problems)
+    problems.report()
 
 
 _NEEDED = {

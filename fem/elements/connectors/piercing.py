@@ -32,7 +32,7 @@ from fem.elements.connectors.surfaces import (
     normals,
     read_surfaces,
 )
-from fem.errors import InputError, nearest
+from fem.errors import Problems, nearest
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -75,15 +75,14 @@ def place_connectors(
         InputError: sides that are not there, points that pierce nothing; all of them.
     """
     surfaces = read_surfaces(deck, points)
-    problems: list[str] = []
+    problems = Problems()
     start = np.stack([_starts(points, rows, side) for side in "ab"])
     lost = np.isnan(start).any(axis=(0, 2)) & (rows["form"] != "ALIGN").to_numpy()
     problems += [
         f"{where(card, rows.iloc[i])}: no place, expected GS, GA and GB, or XS YS ZS"
         for i in np.flatnonzero(lost)
     ]
-    if problems:
-        raise InputError(problems)
+    problems.report()
     spots = []
     for side in (0, 1):
         found = _pierced(
@@ -98,8 +97,7 @@ def place_connectors(
             for i in np.flatnonzero(far)
         ]
         spots.append(found)
-    if problems:
-        raise InputError(problems)
+    problems.report()
     spots = _between(surfaces, rows, start, spots, diameter, card)
     squares = [_squares(surfaces, rows, spots, side, diameter) for side in (0, 1)]
     elements = np.stack([spot.element for spot in spots], axis=1)

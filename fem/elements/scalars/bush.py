@@ -23,7 +23,7 @@ from fem.elements.lines.line_geometry import (
     skew,
 )
 from fem.elements.lines.orientation import orientation_vectors
-from fem.errors import InputError
+from fem.errors import Problems
 from fem.geometry.points import Points
 
 if TYPE_CHECKING:
@@ -217,7 +217,7 @@ def _refuse(
     by_line: np.ndarray,
     axes: Float64,
 ) -> None:
-    problems = []
+    problems = Problems()
     for i in range(len(rows)):
         if cid[i] < 0 and not apart[i]:
             reason = "its grids coincide or one is ground: CID is needed"
@@ -228,8 +228,7 @@ def _refuse(
         else:
             continue
         problems.append(f"{where(card, rows.iloc[i])}: {reason}")
-    if problems:
-        raise InputError(problems)
+    problems.report()
 
 
 def _places(rows: pd.DataFrame, points: Points, between: Float64) -> Float64:

@@ -249,7 +249,7 @@ def _block(
     jacobian = np.linalg.det(np.einsum("qbn,ena->eqba", slope, section))
     turned = np.abs(jacobian.sum(axis=1)) < (1.0 - 1e-9) * np.abs(jacobian).sum(axis=1)
     flat = np.abs(jacobian).max(axis=1) <= 1e-9 * size**2
-    problems = []
+    problems = Problems()
     for bad, text in (
         (
             np.abs(xyz[:, :, 1]).max(axis=1) > _PLANE * size,
@@ -263,8 +263,7 @@ def _block(
             "plane of the basic frame with x >= 0, corner, mid-side, corner, ..."
             for k in np.flatnonzero(bad)[:10]
         ]
-    if problems:
-        raise InputError(problems)
+    problems.report()
     found = [materials[int(mid)] for mid in rows["mid"]]
     angle = np.radians(rows["th"].to_numpy(float))
     return Ring(

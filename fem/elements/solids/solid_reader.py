@@ -128,7 +128,7 @@ def _block(
 def _check_materials(
     rows: pd.DataFrame, shape: Shape, materials: ElasticityTable, mids: Int64
 ) -> None:
-    problems = []
+    problems = Problems()
     for mid in np.unique(mids):
         user = where(shape.card, rows.iloc[int(np.argmax(mids == mid))])
         found = materials.problem(int(mid), ("MAT1", "MAT9"), user)
@@ -136,8 +136,7 @@ def _check_materials(
             found = _unfit(materials[int(mid)], user)
         if found:
             problems.append(found)
-    if problems:
-        raise InputError(problems)
+    problems.report()
 
 
 def _unfit(material: Elasticity, user: str) -> str | None:
