@@ -1,7 +1,7 @@
 """`drake-landing campaign`: from the file to the folder of results, in words."""
 
 import shlex
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -80,6 +80,7 @@ def _kept(campaign: Campaign, file: Path, folder: Path, out: Path | None) -> str
 _FIRST = 3  # cases that are named
 _USUAL = 2.0  # s, of a landing that goes on until it has shown its extremes
 _FLY = 5.0  # s of processor time for a second of landing, some 80 modes
+_STEP = 2e-7  # s of processor time for a step of a landing in a block, per freedom
 
 
 def explain_campaign(campaign: Campaign) -> str:
@@ -91,11 +92,12 @@ def explain_campaign(campaign: Campaign) -> str:
     rows, cases = expand(campaign)
     places = BaseCase(campaign.base).case.places
     with places.located():
-        airframes = "\n".join(_airframes(cases))
+        airframes, freedoms = _airframes(cases)
     given = [case.simulation.duration for case in cases]
     duration = [d if isinstance(d, float | int) else _USUAL for d in given]
     steps = max(1.0, duration[0] / cases[0].transient.step)
     confirmed = min(len(rows), campaign.confirm.sample + campaign.confirm.most)
+    minutes = _STEP * freedoms * steps * confirmed / 60.0
     axes = "\n".join(
         f"    {name}: {', '.join(map(_short, rows[name].unique()[:6]))}"
         + (" ..." if rows[name].nunique() > 6 else "")
@@ -108,29 +110,35 @@ def explain_campaign(campaign: Campaign) -> str:
         f"files of {1e-6 * steps * 4 * 120 * len(rows):.0f} MB\n"
         f"  confirmed   {campaign.confirm.sample} drawn at random and at most "
         f"{campaign.confirm.most} that decide: {confirmed} direct transients of "
-        f"{steps:.0f} steps in blocks of {campaign.confirm.block}\n"
+        f"at most {steps:.0f} steps, at most {campaign.confirm.block} together, some "
+        f"{minutes:.1g} min of processor time\n"
         f"run it: drake-landing campaign {shlex.quote(campaign.places.file)}"
     )
 
 
-def _airframes(cases: Sequence[Case]) -> Iterator[str]:
-    """Each airframe, once built: a mass case may miss the mass that it should have.
+def _airframes(cases: Sequence[Case]) -> tuple[str, int]:
+    """A line on each airframe, and how many freedoms the largest has.
+
+    Each is built: a mass case may miss the mass that it should have.
 
     Raises:
         InputError: of all airframes.
     """
     distinct = {case.airframe.model_dump_json(): case for case in reversed(cases)}
-    problems = Problems()
+    problems, lines, freedoms = Problems(), [], 0
     with TemporaryDirectory() as folder:
         for i, case in enumerate(reversed(distinct.values())):
             with problems.gathered():
                 aircraft = prepare_aircraft(case, Path(folder, str(i)))
-                mass = loaded(aircraft.structure(), aircraft.gears).mass
+                structure = aircraft.structure()
+                mass = loaded(structure, aircraft.gears).mass
                 name = case.airframe.mass_case or aircraft.name
-                yield (
+                lines.append(
                     f"  {'' if i else 'airframes':<12}{name}, {mass:,.0f} kg with gears"
                 )
+                freedoms = max(freedoms, structure.size)
     problems.report()
+    return "\n".join(lines), freedoms
 
 
 def _short(value: object) -> str:

@@ -19,7 +19,12 @@ import pandas as pd
 from drake_landing.cache import content_key
 from drake_landing.campaign.cases import BaseCase
 from drake_landing.campaign.combinations import case_rows
-from drake_landing.campaign.confirm import BlockTask, confirmed_file, run_block
+from drake_landing.campaign.confirm import (
+    BlockTask,
+    block_tasks,
+    confirmed_file,
+    run_block,
+)
 from drake_landing.campaign.engine import Engine, Pool, engine
 from drake_landing.campaign.schema import Campaign
 from drake_landing.campaign.selection import last_peak, screening_errors, to_confirm
@@ -241,7 +246,7 @@ def _fly(pool: Engine, tasks: Sequence[LandingTask], tell: Reporter) -> None:
     for task in tasks:
         # A transient of another content must not stand for that of this landing.
         old = confirmed_file(task.folder, task.number)
-        if old.is_file() and not _has(old, _confirmed_key(task)):
+        if old.is_file() and not _has(old, task.transient_key):
             old.unlink()
     missing = [t for t in tasks if not _has(case_file(t.folder, t.number), t.key)]
     found = len(tasks) - len(missing)
@@ -297,7 +302,7 @@ def _confirm(
     Returns:
         Landings that could not be integrated, and why.
     """
-    key_of = {t.number: _confirmed_key(t) for t in tasks}
+    key_of = {t.number: t.transient_key for t in tasks}
     folder = tasks[0].folder if tasks else Path()
     ends = {n: at + campaign.confirm.tail for n, at in peaks.items()}
     missing = [
@@ -310,24 +315,22 @@ def _confirm(
     for n in missing:
         kind = (of_case[n], tasks[n].step, tasks[n].scheme)
         alike.setdefault(kind, []).append(n)
-    blocks = []
-    for (key, _, scheme), members in alike.items():
-        # Landings that end at about the same time share a block.
-        members.sort(key=ends.__getitem__)
-        for i in range(0, len(members), campaign.confirm.block):
-            part = members[i : i + campaign.confirm.block]
-            blocks.append(
-                BlockTask(
-                    numbers=tuple(part),
-                    ends=tuple(ends[n] for n in part),
-                    keys=tuple(key_of[n] for n in part),
-                    landing=prepared[key].landing,
-                    transient=prepared[key].transient,
-                    folder=folder,
-                    scheme=scheme,
-                )
-            )
-
+    blocks = [
+        block
+        for (key, _, scheme), members in alike.items()
+        for block in block_tasks(
+            BlockTask(
+                numbers=tuple(members),
+                ends=tuple(ends[n] for n in members),
+                keys=tuple(key_of[n] for n in members),
+                landing=prepared[key].landing,
+                transient=prepared[key].transient,
+                folder=folder,
+                scheme=scheme,
+            ),
+            campaign.confirm.block,
+        )
+    ]
     failed: list[tuple[BlockTask, str]] = []
     for _ in pool.run(run_block, blocks, lambda *found: failed.append(found), tell):
         pass
@@ -337,11 +340,6 @@ def _confirm(
     for _ in pool.run(run_block, again, lambda *found: failed.append(found), tell):
         pass
     return {task.numbers[0]: f"no direct transient: {why}" for task, why in failed}
-
-
-def _confirmed_key(task: LandingTask) -> str:
-    """Hash of everything that a direct transient depends on."""
-    return content_key("transient", task.key)
 
 
 def _sample_peaks(

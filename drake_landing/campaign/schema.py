@@ -55,7 +55,7 @@ class Confirm(Section):
         default=64, ge=0, description="landings confirmed beside the sample, at most"
     )
     block: int = Field(
-        default=32, ge=1, le=256, description="landings in one transient"
+        default=32, ge=1, le=256, description="landings in one transient, at most"
     )
     confidence: float = number(
         "of the screening error that decides what is confirmed", "1", 0.99, gt=0, lt=1

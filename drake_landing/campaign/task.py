@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 import pandas as pd
 
+from drake_landing.cache import content_key
 from drake_landing.campaign.basis import amplitudes
 from drake_landing.campaign.engine import no_space
 from drake_landing.campaign.hulls import hull_rows
@@ -72,6 +73,11 @@ class LandingTask:
     folder: Path
     step: float
     scheme: str
+
+    @property
+    def transient_key(self) -> str:
+        """Key of everything that the direct transient depends on."""
+        return content_key("transient", self.key)
 
 
 def case_file(folder: Path, number: int) -> Path:

@@ -23,6 +23,7 @@ from drake_landing.case.scenario import Scenario
 from drake_landing.case.schema import Case
 from drake_landing.case.steady import Steady
 from drake_landing.gears.landing_gear import LandingGear
+from drake_landing.landing.threads import single_threaded_blas
 from drake_landing.parametric import WrittenAircraft, parametric_aircraft
 from drake_landing.reduced.legs import with_read_legs
 from drake_landing.reduced.model import ReducedModel
@@ -54,6 +55,9 @@ def checked_aircraft(
     return aircraft, structure, (*remarks, *check_gears(structure, aircraft, R_AB))
 
 
+# The last digits of sums depend on the threads of BLAS. Those of a deck must not:
+# what is kept of an earlier run is found by their content.
+@single_threaded_blas()
 def prepare_aircraft(case: Case, out: Path) -> Aircraft:
     """The aircraft of a case; a built-in one is written to `out/airframe.bdf`.
 

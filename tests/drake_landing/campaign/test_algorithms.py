@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from drake_landing.campaign import section_envelopes
 from drake_landing.campaign.axes import Distribution, quantiles
 from drake_landing.campaign.combinations import case_rows
+from drake_landing.campaign.confirm import SHARED_WORK, blocks_by_end
 from drake_landing.campaign.fatigue import cycles, damage
 from drake_landing.campaign.hulls import DIRECTIONS, hull_rows
 from drake_landing.campaign.schema import Campaign, Fatigue
@@ -20,6 +21,31 @@ from drake_landing.campaign.set_cover import candidates, greedy_cover
 from drake_landing.campaign.statistics import exceedance
 from drake_landing.campaign.task import PAIRS
 from drake_landing.parts.cuts import NAMED
+
+
+@given(
+    ends=st.lists(st.floats(0.1, 5.0), min_size=1, max_size=9),
+    most=st.integers(1, 5),
+)
+@settings(max_examples=60)
+def test_blocks_that_end_together_cost_least(ends, most) -> None:
+    """All ways to cut are tried: no one is cheaper."""
+    ends = sorted(ends)
+
+    def work(blocks):
+        return sum(part[-1] * (SHARED_WORK + len(part)) for part in blocks)
+
+    def ways(left):
+        if not left:
+            yield []
+        for size in range(1, min(most, len(left)) + 1):
+            for rest in ways(left[size:]):
+                yield [left[:size], *rest]
+
+    found = [ends[block] for block in blocks_by_end(ends, most)]
+    assert [end for block in found for end in block] == ends
+    assert max(map(len, found)) <= most
+    assert work(found) == pytest.approx(min(map(work, ways(ends))), rel=1e-12)
 
 
 def test_hull_of_a_circle_keeps_its_size() -> None:

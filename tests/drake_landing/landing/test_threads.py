@@ -5,11 +5,13 @@ import pytest
 import scipy.sparse as sp
 from threadpoolctl import threadpool_info, threadpool_limits
 
+from drake_landing.case.reading import parse_case
 from drake_landing.case.scenario import Scenario
 from drake_landing.case.simulation import Simulation
 from drake_landing.landing.diagram import MakeLandingDiagram
 from drake_landing.landing.run import fly
 from drake_landing.landing.threads import single_threaded_blas
+from drake_landing.process import aircraft
 from drake_landing.progress import Silent
 from fem.algebra.linear_solver import factorize
 from tests.drake_landing.landing_gears import aircraft_gears
@@ -30,15 +32,27 @@ def two_threads():
         assert _threads() == {2}
 
 
-@single_threaded_blas()
 def _fail():
     assert _threads() == {1}
     raise ValueError("stop")
 
 
 def test_threads_come_back_after_a_failure():
-    with pytest.raises(ValueError, match="stop"):
+    with pytest.raises(ValueError, match="stop"), single_threaded_blas():
         _fail()
+
+
+def test_decks_are_written_with_one_thread(monkeypatch, tmp_path):
+    """The last digits of the sums in them would depend on the number of threads."""
+
+    class Model:
+        def write(self, path, topology):
+            _fail()
+
+    monkeypatch.setattr(aircraft, "parametric_aircraft", lambda name: Model())
+    case = parse_case("name: one\nairframe: {model: con}\nscenario: {sink_rate: 1}\n")
+    with pytest.raises(ValueError, match="stop"):
+        aircraft.prepare_aircraft(case, tmp_path)
 
 
 def test_landing_runs_with_one_thread():
