@@ -112,8 +112,12 @@ class BucklingSolver:
         solver: as in `factorize`.
 
     Example:
-        >>> with BucklingSolver(stiffness) as solver:
-        ...     lowest = [solver.factors(kd, count=3).factor for kd in differentials]
+        >>> k = sp.csr_matrix([[2.0, 0.0], [0.0, 3.0]])
+        >>> loads = [sp.csr_matrix(-np.eye(2)), sp.csr_matrix(-0.5 * np.eye(2))]
+        >>> with BucklingSolver(k) as solver:
+        ...     lowest = [solver.factors(kd, count=1).factor[0] for kd in loads]
+        >>> [round(float(factor), 9) for factor in lowest]
+        [2.0, 4.0]
     """
 
     def __init__(
