@@ -100,7 +100,8 @@ def _solve(
 ) -> Arrays:
     """Factors and work of the modes of all cases, and the shape of the lowest.
 
-    What lies above the panels of the cases before is not looked for.
+    What lies above the panels of the cases before, or above what is known of them, is
+    not looked for.
     """
     motions = free_motions(structure.stiffness, structure.rigid_body)
     free = FreeMotions(motions, structure.mass @ motions)
@@ -111,10 +112,11 @@ def _solve(
         for k, u in enumerate(state.T):
             u_g = structure.displacement(u)
             matrix = differential_stiffness(structure.points, structure.blocks, u_g)
+            limit = min(highest, known_below)
             found = solver.factors(
                 structure.elimination.reduce(matrix),
                 count=_MODES * count,
-                band=(0.0, highest if np.isfinite(highest) else None),
+                band=(0.0, limit if np.isfinite(limit) else None),
             )
             complete &= all(c.complete for c in found.counts)
             all_ids, all_work = differential_work(
