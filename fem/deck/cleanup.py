@@ -185,7 +185,7 @@ def _isotropic_sheets(tables: Tables) -> pd.Series:
     """Ids of the PSHELL whose materials are isotropic, all of them."""
     sheet, isotropic = tables["PSHELL"], {0, -1, *tables["MAT1"]["mid"].tolist()}
     alike = sheet[[f"mid{k}" for k in range(1, 5)]].isin(isotropic).all(axis=1)
-    return sheet["pid"][alike]
+    return pd.Series(sheet["pid"][alike])
 
 
 def _element_ids(cards: Sequence[RawCard]) -> Int64:
