@@ -33,6 +33,7 @@ _DEFORMATION = 0.05  # of the airframe's size: largest displacement in a picture
 _MODE = 0.006  # the same in that of a buckling mode, whose place is small
 _NEAR = 0.02  # likewise its close-up
 _CLOSE = 0.09  # of the airframe's size: half height of a close-up
+_THROUGH = 0.35  # opacity of an airframe within which a place is marked
 _TOP = 0.995  # share of elements below the end of the colour scale
 _TRY = (
     "import pyvista as v; p = v.Plotter(off_screen=True); p.screenshot(None); p.close()"
@@ -53,7 +54,8 @@ class Field:
         unit: Pa, or what one is in the picture.
         top: end of the colour scale; None: by the values.
         near: half height of a close-up, of the airframe's size.
-        marked: where `worst` is, is shown in the whole as well.
+        marked: where `worst` is, is shown in the whole as well, through all that lies
+            before it.
     """
 
     p: Float64
@@ -108,7 +110,11 @@ def stress_field(
 
 
 def mode_field(
-    structure: Structure, shape: Float64, work: pd.Series, element: int
+    structure: Structure,
+    shape: Float64,
+    work: pd.Series,
+    element: int,
+    chosen: frozenset[int] | None = None,
 ) -> Field:
     """The elements moved by a buckling mode, with the work that is done on them.
 
@@ -117,8 +123,9 @@ def mode_field(
         shape: (f,) the mode.
         work: element id -> share of the largest.
         element: with the most of it.
+        chosen: element ids; None: all.
     """
-    field = _field(structure, shape, work, element, None, _MODE)
+    field = _field(structure, shape, work, element, chosen, _MODE)
     title = "work of the internal forces, share of the largest"
     return replace(field, title=title, unit=1.0, top=1.0, near=_NEAR, marked=True)
 
@@ -215,6 +222,7 @@ def draw_field(
             line_width=width,
             ambient=0.65,
             diffuse=0.4,
+            opacity=_THROUGH if field.marked and not close else 1.0,
         )
     if close:
         plotter.add_mesh(_outline(field.worst), color="magenta", line_width=5)

@@ -113,20 +113,32 @@ def _steady_picture(
 
 
 def buckling_pictures(
-    out: Path, structure: Structure, buckled: BuckledPanels | None, R_AB: Float64
+    out: Path,
+    structure: Structure,
+    buckled: BuckledPanels | None,
+    found: PartsFound,
+    R_AB: Float64,
 ) -> list[tuple[Path, str]]:
-    """The mode of the panel that buckles first: the whole, and a close-up."""
+    """The mode of the panel that buckles first: the whole, and a close-up of its
+    component, which others may hide.
+    """
     if buckled is None or buckled.table.empty or not can_draw():
         return []
-    first = buckled.table.iloc[0]
-    field = mode_field(structure, buckled.shape, buckled.work, int(first["id"]))
-    if not len(field.faces):
-        return []
+    first, stress = buckled.table.iloc[0], found.landing.stress
+    own = frozenset(stress.id[stress.component == first.component].tolist())
     pictures = []
-    for name, close in (("all", False), ("close", True)):
+    for name, close, chosen in (("all", False, None), ("close", True, own)):
+        element = int(first["id"])
+        field = mode_field(structure, buckled.shape, buckled.work, element, chosen)
+        if not len(field.faces):
+            continue
         path = out / "pictures" / f"buckling_{name}.png"
         draw_field(path, field, close=close, up=R_AB[2], aft=R_AB[0])
-        where = "round the element with most of the work" if close else "marked"
+        where = (
+            f"the component alone, round element {element}, on which most work is done"
+            if close
+            else "the place marked"
+        )
         pictures.append(
             (
                 path,

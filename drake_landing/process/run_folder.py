@@ -52,7 +52,7 @@ def write_all(result: ProcessResult, out: Path, watch: PartsWatch) -> None:
             watch.steady,
         )
     with _at_most_lost("picture of the panel that buckles", lost):
-        pictured = buckling_pictures(out, structure, result.buckled, R_AB)
+        pictured = buckling_pictures(out, structure, result.buckled, parts, R_AB)
     stages.begin("writing the report")
     with _at_most_lost("histories.html, the interactive histories,", lost):
         write_histories(out / "histories.html", result)
