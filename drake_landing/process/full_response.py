@@ -95,6 +95,7 @@ def full_response(
             {float(landing.time[k]): text for k, text in instants.items()},
             case.parts.buckling,
             cache,
+            lambda done, total: stages.progress.share(done / total, f"case {done}"),
         )
 
     stages.begin("maps of stresses and section loads")

@@ -6,11 +6,12 @@ static subcase, or of its own. With STATSUB(PRELOAD) that load stays as it is:
 """
 
 from collections.abc import Mapping, Sequence
+from contextlib import ExitStack
 
 import numpy as np
 import scipy.sparse as sp
 
-from fem.algebra.buckling import Buckling, buckling_factors
+from fem.algebra.buckling import Buckling, BucklingSolver
 from fem.algebra.linear_solver import SingularMatrixError
 from fem.arrays import Float64, Int64
 from fem.deck.control.subcase import Subcase
@@ -59,9 +60,31 @@ def solve_buckling(
     loads = _loads_of(structure, buckled, options)
     for notice in _notices(structure):
         options.console.say(f"notice: {notice}")
-    for case in buckled:
-        model = structure.with_subcase(case)
-        _solve(model, loads, results, options)
+    with _Solvers(options) as solvers:
+        for case in buckled:
+            _solve(structure.with_subcase(case), loads, results, options, solvers)
+
+
+class _Solvers:
+    """One solver for subcases that follow each other on the same stiffness."""
+
+    def __init__(self, options: Options) -> None:
+        self._options, self._open = options, ExitStack()
+        self._last: tuple[sp.csr_matrix, BucklingSolver] | None = None
+
+    def __enter__(self) -> "_Solvers":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._open.close()
+
+    def of(self, stiffness: sp.csr_matrix) -> BucklingSolver:
+        """The solver of a matrix, that of the subcase before where it is the same."""
+        if self._last is None or self._last[0] is not stiffness:
+            self._open.close()
+            own = BucklingSolver(stiffness, solver=self._options.solver)
+            self._last = stiffness, self._open.enter_context(own)
+        return self._last[1]
 
 
 def _buckles(case: Subcase) -> bool:
@@ -121,6 +144,7 @@ def _solve(
     loads: Mapping[int, StaticSolution],
     results: ResultFile,
     options: Options,
+    solvers: _Solvers,
 ) -> None:
     case = model.subcase
     chosen = _preloads(model.deck, case)
@@ -143,12 +167,10 @@ def _solve(
         stiffness = sp.csr_matrix(stiffness + reduced(chosen[1]))
 
     def solve() -> Buckling:
-        return buckling_factors(
-            stiffness,
+        return solvers.of(stiffness).factors(
             differential,
             count=count,
             band=band,
-            solver=options.solver,
             progress=options.console.progress("buckling"),
         )
 

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from fem.arrays import Bool, Float64
+from fem.deck.records import topologies
 from fem.deck.references import table, where
 from fem.elements.shells.shell_geometry import element_normals
 from fem.geometry.points import Points
@@ -23,8 +24,6 @@ if TYPE_CHECKING:
 # Sine of the angle between x axis and normal: rounding; what is said.
 _ROUNDING = 1e-12
 _STEEP = 1e-3
-_CORNERS = {"CQUAD4": 4, "CTRIA3": 3, "CQUADR": 4, "CTRIAR": 3,
-            "CQUAD8": 4, "CTRIA6": 3}  # fmt: skip
 
 
 def without_projection(direction: Float64, normal: Float64) -> Bool:
@@ -39,7 +38,12 @@ def _sine(direction: Float64, normal: Float64) -> Float64:
 
 def steep_systems(deck: "Deck", points: Points) -> list[str]:
     """Notices of elements whose material axis is almost normal to them, and counts."""
-    found = [place for card in _CORNERS for place in _steep(deck, points, card)]
+    found = [
+        place
+        for card, shape in topologies("surface").items()
+        if "mcid" in deck.cards[card]
+        for place in _steep(deck, points, card, shape.corners)
+    ]
     if not found:
         return []
     least, first = min(found)
@@ -50,19 +54,24 @@ def steep_systems(deck: "Deck", points: Points) -> list[str]:
     ]
 
 
-def _steep(deck: "Deck", points: Points, card: str) -> Iterator[tuple[float, str]]:
-    """Angle and place of such elements of one card that are not isotropic."""
+def _steep(
+    deck: "Deck", points: Points, card: str, count: int
+) -> Iterator[tuple[float, str]]:
+    """Angle and place of such elements of one card, of so many corners, that are not
+    isotropic.
+    """
     rows = table(deck, card)
     rows = rows[rows["mcid"] >= 0]
     if rows.empty:
         return
-    grids = rows[[f"g{k + 1}" for k in range(_CORNERS[card])]].to_numpy(np.int64)
+    grids = rows[[f"g{k + 1}" for k in range(count)]].to_numpy(np.int64)
     corners = points.xyz[points.rows(grids)]
     mcid = rows["mcid"].to_numpy(np.int64)
     direction = points.frames.triads(mcid, corners.mean(axis=1))[:, :, 0]
     sine = _sine(direction, element_normals(corners))
-    for i in np.flatnonzero((sine <= _STEEP) & (sine > _ROUNDING)):
-        row = rows.iloc[i]
-        pid = int(row["pid"])
-        if not read_shell_properties(deck, [pid])[pid].isotropic:
-            yield float(sine[i]), where(card, row)
+    steep = (sine <= _STEEP) & (sine > _ROUNDING)
+    rows, sine = rows[steep], sine[steep]
+    properties = read_shell_properties(deck, rows["pid"].unique().tolist())
+    for k, pid in enumerate(rows["pid"].tolist()):
+        if not properties[pid].isotropic:
+            yield float(sine[k]), where(card, rows.iloc[k])

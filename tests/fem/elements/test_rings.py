@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.verification.quadratic_solids import RINGS
+from benchmarks.verification.rings import RINGS
 from benchmarks.verification.runner import run
 from fem.deck.reader import read_deck
 from fem.errors import InputError

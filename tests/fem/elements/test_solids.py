@@ -487,35 +487,3 @@ def test_linear_motions_without_bubble_functions(shape, natural):
     moved = (skew @ gradient.T).ravel()
     force = way(skew[None], matrix[None]).stiffness[0] @ moved
     np.testing.assert_allclose(force, plain @ moved, atol=1e-9 * E)
-
-
-_BACKWARDS = {
-    "TETRA4": [0, 2, 1, 3],
-    "TETRA10": [0, 2, 1, 3, 6, 5, 4, 7, 9, 8],
-    "PYRAM5": [0, 3, 2, 1, 4],
-    "PENTA6": [0, 2, 1, 3, 5, 4],
-    "PENTA15": [0, 2, 1, 3, 5, 4, 8, 7, 6, 9, 11, 10, 14, 13, 12],
-    "HEXA8": [0, 3, 2, 1, 4, 7, 6, 5],
-    "HEXA20": [0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 12, 15, 14, 13, 19, 18, 17, 16],
-}
-
-
-@pytest.mark.parametrize("kind", sorted(_BACKWARDS))
-def test_solids_that_go_round_the_other_way_are_turned(kind, tmp_path):
-    """The same element, from the grids of its card in another order; that is said."""
-    xyz, other = NATURAL[kind][1], np.array(_BACKWARDS[kind])
-    name = f"C{kind.rstrip('0123456789')}"
-    decks = []
-    for order in (np.arange(len(xyz)), other):
-        grids = [f"GRID,{k + 1},,{x},{y},{z}" for k, (x, y, z) in enumerate(xyz)]
-        nodes = [str(k + 1) for k in order]
-        lines = [",".join(nodes[:6]), *(",".join(nodes[k : k + 8]) for k in (6, 14))]
-        card = "\n,".join(line for line in lines if line)
-        path = tmp_path / f"{order[1]}.bdf"
-        bulk = "\n".join([*grids, f"{name},1,1,{card}", "PSOLID,1,1", "MAT1,1,1.,,.3"])
-        path.write_text(f"SOL 101\nCEND\nBEGIN BULK\n{bulk}\nENDDATA\n")
-        decks.append(read_deck(path))
-    for deck in decks:
-        assert np.array_equal(deck.cards[name]["nodes"][0], np.arange(len(xyz)) + 1)
-    assert not decks[0].notices
-    assert f"{name} 1: the base goes round away" in decks[1].notices[0]

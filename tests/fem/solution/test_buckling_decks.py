@@ -7,6 +7,7 @@ import pytest
 import fem
 from benchmarks.verification.buckling import plate
 from fem.algebra import buckling
+from fem.algebra.linear_solver import factorize
 from fem.errors import InputError
 from fem.files.export import export
 from fem.solution import run_deck
@@ -202,6 +203,32 @@ def test_the_iteration_finds_what_the_dense_solution_finds(solve, monkeypatch):
     assert "MISSING" not in said
     band = solve(CASE, "EIGRL,1,0.,1.e7")[0]["buckling/2/factor"]
     assert band == pytest.approx(dense[dense < 1e7], rel=1e-9)
+
+
+@pytest.mark.parametrize(("second", "count"), [("", 1), ("SPC = 2\n", 2)])
+def test_subcases_on_the_same_supports_share_the_factorisation(
+    solve, monkeypatch, second, count
+):
+    """Two loads, one column; the other way the second is hinged at its end."""
+    monkeypatch.setattr(buckling, "DENSE_LIMIT", 0)
+    factorized = []
+
+    def counted(matrix, **how):
+        factorized.append(how)
+        return factorize(matrix, **how)
+
+    monkeypatch.setattr(buckling, "factorize", counted)
+    case = (
+        f"SPC = 1\nSUBCASE 1\nLOAD = 7\nSUBCASE 2\n{second}LOAD = 9\nSUBCASE 3\n"
+        f"METHOD = 1\nSTATSUB = 1\nSUBCASE 4\n{second}METHOD = 1\nSTATSUB = 2\n"
+    )
+    more = "SPC1,2,123456,1\nSPC1,2,3,11\nFORCE,9,11,,-2.,1.\nEIGRL,1,,,1"
+    found = solve(case, more)[0]
+    assert len(factorized) == count
+    first, other = (found[f"buckling/{k}/factor"][0] for k in (3, 4))
+    assert first == pytest.approx(EULER, rel=1e-3)
+    if not second:
+        assert other == pytest.approx(0.5 * first, rel=1e-9)
 
 
 def test_without_internal_forces_nothing_buckles(solve, monkeypatch):
