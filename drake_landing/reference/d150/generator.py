@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from drake_landing.landing.threads import single_threaded_blas
 from drake_landing.reference.d150 import con, full, pre
 from drake_landing.reference.d150.beams import add_materials
 from drake_landing.reference.d150.gears import landing_gears
@@ -46,6 +47,9 @@ RECIPES = {
 LEVELS = tuple(RECIPES)
 
 
+# Sums over many grids depend in their last digits on the threads of BLAS; a deck must
+# not: it is the same on every machine.
+@single_threaded_blas()
 def build(level: str = "con", topology: str | None = None) -> AircraftModel:
     """Generates a reference aircraft.
 

@@ -13,6 +13,7 @@ from drake_landing.landing.run import fly
 from drake_landing.landing.threads import single_threaded_blas
 from drake_landing.process import aircraft
 from drake_landing.progress import Silent
+from drake_landing.reference.d150 import generator
 from fem.algebra.linear_solver import factorize
 from tests.drake_landing.landing_gears import aircraft_gears
 from tests.systems.synthetic_body import aircraft_body
@@ -53,6 +54,9 @@ def test_decks_are_written_with_one_thread(monkeypatch, tmp_path):
     case = parse_case("name: one\nairframe: {model: con}\nscenario: {sink_rate: 1}\n")
     with pytest.raises(ValueError, match="stop"):
         aircraft.prepare_aircraft(case, tmp_path)
+    monkeypatch.setattr(generator, "add_materials", lambda bench: _fail())
+    with pytest.raises(ValueError, match="stop"):
+        generator.write_model("full", tmp_path / "full.bdf")
 
 
 def test_landing_runs_with_one_thread():
