@@ -27,6 +27,9 @@ from fem.solution.requests import check_free, ids_of
 from fem.solution.requests import wanted as asked
 
 _PRINTED = 60
+# Words of RESVEC that are followed; names from memory of the guide. Those without a
+# vector here (DAMPLOD, RVDOF, DYNRSP) are off in any case.
+_RESVEC = frozenset("INRLOD NOINRL APPLOD NOAPPL NORVDOF NODAMP NODYNRSP".split())
 
 
 def solve_modes(
@@ -73,6 +76,11 @@ def with_residual_vectors(
     if wanted.upper().startswith("NO"):
         return modes
     words = model.subcase.options.get("resvec", ())
+    if undone := [word for word in words if word not in _RESVEC]:
+        options.console.say(
+            f"notice: RESVEC({', '.join(undone)}) is not done: residual vectors are "
+            "those of the loads and of the inertia of rigid motions"
+        )
     loads = [] if "NOAPPL" in words else [pattern]
     if "NOINRL" not in words:
         rigid = rigid_modes(model.points, np.zeros(3))

@@ -102,6 +102,19 @@ def test_amplitudes_that_mass_alone_couples_are_no_pieces_of_their_own(say):
     assert "2 pieces that nothing connects" in text
 
 
+@pytest.mark.parametrize(
+    ("words", "undone"),
+    [("NOINRL,DAMPLOD,BAD", "DAMPLOD, BAD"), ("INRLOD,NODAMP", None)],
+)
+def test_words_of_resvec_that_are_not_followed_are_said(say, words, undone):
+    case = f"SPC=1\nMETHOD=1\nFREQ=3\nDLOAD=4\nRESVEC({words})=YES"
+    bulk = "EIGRL,1,,,2\nFREQ,3,5.\nRLOAD1,4,1,,,5\nTABLED1,5\n,0.,1.,9.,1.,ENDT\n"
+    status, text = say(111, case, BAR + bulk)
+    assert status == 0, text
+    assert (f"notice: RESVEC({undone}) is not done" in text) == (undone is not None)
+    assert ("RESVEC(" in text) == (undone is not None)
+
+
 def test_options_without_effect_are_said(say):
     options = ("--envelope", "--ignore", "CBEAM3")
     status, text = say(103, "METHOD=1\nSPC=1", BAR + "EIGRL,1,,,3\n", *options)
